@@ -1,0 +1,13 @@
+//! Floor 0: the numbers that a field can be evaluated over, and vectors of them.
+//!
+//! A distance function is written once over [`Number`]; which type it runs on decides what comes out: `f64` a value,
+//! `Lanes` many values at once, [`Dual`] a value with exact derivatives, `Interval` the range over a region.
+
+mod dual;
+mod number;
+mod scalar;
+mod vector;
+
+pub use dual::Dual;
+pub use number::Number;
+pub use vector::Vec3;

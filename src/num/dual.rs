@@ -95,18 +95,25 @@ impl<N: Number, const K: usize> Neg for Dual<N, K> {
 impl<N: Number, const K: usize> Number for Dual<N, K> {
     #[inline(always)]
     fn splat(x: f64) -> Self {
-        Self { value: N::splat(x), partial: [N::splat(0.0); K] }
+        Self {
+            value: N::splat(x),
+            partial: [N::splat(0.0); K],
+        }
     }
 
     #[inline(always)]
     fn min(self, o: Self) -> Self {
         // Continuous in both branches, so an undecided interval takes the hull of the slopes, not everything.
-        self.zip(o, self.value.min(o.value), |a, b| N::select_lt(o.value, self.value, b, a))
+        self.zip(o, self.value.min(o.value), |a, b| {
+            N::select_lt(o.value, self.value, b, a)
+        })
     }
 
     #[inline(always)]
     fn max(self, o: Self) -> Self {
-        self.zip(o, self.value.max(o.value), |a, b| N::select_lt(self.value, o.value, b, a))
+        self.zip(o, self.value.max(o.value), |a, b| {
+            N::select_lt(self.value, o.value, b, a)
+        })
     }
 
     #[inline(always)]
@@ -125,7 +132,10 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
             // Not slope * 0: at the root of zero that is infinity times zero.
             *d = N::select_lt(zero, root, *d * slope, zero);
         }
-        Self { value: root, partial }
+        Self {
+            value: root,
+            partial,
+        }
     }
 
     #[inline(always)]
@@ -166,13 +176,18 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
     #[inline(always)]
     fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self {
         let value = N::select_lt(a.value, b.value, x.value, y.value);
-        x.zip(y, value, |dx, dy| N::select_lt_slope(a.value, b.value, dx, dy))
+        x.zip(y, value, |dx, dy| {
+            N::select_lt_slope(a.value, b.value, dx, dy)
+        })
     }
 
     #[inline(always)]
     fn hypot(self, o: Self) -> Self {
         let length = self.value.hypot(o.value);
-        let (u, v) = (self.value.direction_cosine(length), o.value.direction_cosine(length));
+        let (u, v) = (
+            self.value.direction_cosine(length),
+            o.value.direction_cosine(length),
+        );
         self.zip(o, length, |a, b| u * a + v * b)
     }
 
@@ -184,7 +199,10 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
         for (d, (b, c)) in partial.iter_mut().zip(y.partial.into_iter().zip(z.partial)) {
             *d = u * *d + v * b + w * c;
         }
-        Self { value: length, partial }
+        Self {
+            value: length,
+            partial,
+        }
     }
 
     #[inline(always)]

@@ -106,6 +106,11 @@ pub trait Number:
         // ln(0) is -inf, and -inf * 0 has no value; x^0 is 1 for every x.
         let at_zero = Self::select_lt(zero, e.abs(), zero, Self::splat(1.0));
         let positive = Self::select_lt(zero, self, general, at_zero);
-        Self::select_lt(self, zero, Self::select_lt(zero, e.abs(), general, Self::splat(1.0)), positive)
+        Self::select_lt(
+            self,
+            zero,
+            Self::select_lt(zero, e.abs(), general, Self::splat(1.0)),
+            positive,
+        )
     }
 }

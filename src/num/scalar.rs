@@ -58,4 +58,11 @@ macro_rules! scalar {
 }
 
 scalar!(f64, libm::sin, libm::cos, libm::atan2, libm::exp, libm::log);
-scalar!(f32, libm::sinf, libm::cosf, libm::atan2f, libm::expf, libm::logf);
+scalar!(
+    f32,
+    libm::sinf,
+    libm::cosf,
+    libm::atan2f,
+    libm::expf,
+    libm::logf
+);

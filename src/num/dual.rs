@@ -1,5 +1,10 @@
 //! Dual numbers: a value with its exact partial derivatives.
 
+#![allow(
+    clippy::suspicious_arithmetic_impl,
+    reason = "the rules of differentiation mix operators"
+)]
+
 use super::Number;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -36,6 +41,18 @@ impl<N: Number, const K: usize> Dual<N, K> {
         let mut partial = self.partial;
         for d in &mut partial {
             *d = *d * slope;
+        }
+        Self { value, partial }
+    }
+
+    /// `value` with every derivative divided by `divisor`; 0 where the divisor is 0, not 0 / 0.
+    #[inline(always)]
+    fn chain_over(self, value: N, divisor: N) -> Self {
+        let zero = N::splat(0.0);
+        let slope = N::splat(1.0) / divisor;
+        let mut partial = self.partial;
+        for d in &mut partial {
+            *d = N::select_lt(zero, divisor, *d * slope, zero);
         }
         Self { value, partial }
     }
@@ -88,7 +105,11 @@ impl<N: Number, const K: usize> Neg for Dual<N, K> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        self.chain(-self.value, N::splat(-1.0))
+        let mut partial = self.partial;
+        for d in &mut partial {
+            *d = -*d;
+        }
+        Self::new(-self.value, partial)
     }
 }
 
@@ -125,17 +146,7 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
     #[inline(always)]
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
-        let zero = N::splat(0.0);
-        let slope = N::splat(0.5) / root;
-        let mut partial = self.partial;
-        for d in &mut partial {
-            // Not slope * 0: at the root of zero that is infinity times zero.
-            *d = N::select_lt(zero, root, *d * slope, zero);
-        }
-        Self {
-            value: root,
-            partial,
-        }
+        self.chain_over(root, root + root)
     }
 
     #[inline(always)]
@@ -158,7 +169,9 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
         let scale = self.value.square() + x.value.square();
         let zero = N::splat(0.0);
         self.zip(x, self.value.atan2(x.value), |dy, dx| {
-            N::select_lt(zero, scale, (x.value * dy - self.value * dx) / scale, zero)
+            let slope = (x.value * dy - self.value * dx) / scale;
+            self.value
+                .atan2_slope(x.value, N::select_lt(zero, scale, slope, zero))
         })
     }
 
@@ -194,7 +207,9 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
     #[inline(always)]
     fn norm3(x: Self, y: Self, z: Self) -> Self {
         let length = N::norm3(x.value, y.value, z.value);
-        let [u, v, w] = [x, y, z].map(|c| c.value.direction_cosine(length));
+        let u = x.value.direction_cosine(length);
+        let v = y.value.direction_cosine(length);
+        let w = z.value.direction_cosine(length);
         let mut partial = x.partial;
         for (d, (b, c)) in partial.iter_mut().zip(y.partial.into_iter().zip(z.partial)) {
             *d = u * *d + v * b + w * c;
@@ -208,5 +223,41 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
     #[inline(always)]
     fn square(self) -> Self {
         self.chain(self.value.square(), self.value + self.value)
+    }
+    /// Where the derivative by the base is infinite (a root at 0) it is defined as 0.
+    #[inline(always)]
+    fn pow(self, e: Self) -> Self {
+        let (zero, infinity) = (N::splat(0.0), N::splat(f64::INFINITY));
+        let value = self.value.pow(e.value);
+        let slope = e.value * self.value.pow(e.value - N::splat(1.0));
+        let growth = N::select_lt(zero, self.value, value * self.value.ln(), zero);
+        self.zip(e, value, |dx, de| {
+            N::select_lt(slope.abs(), infinity, slope * dx, zero) + growth * de
+        })
+    }
+
+    #[inline(always)]
+    fn powi(self, n: i32) -> Self {
+        if n == 0 {
+            return Self::splat(1.0);
+        }
+        let slope = N::splat(n.into()) * self.value.powi(n.saturating_sub(1));
+        self.chain(self.value.powi(n), slope)
+    }
+
+    #[inline(always)]
+    fn tan(self) -> Self {
+        let value = self.value.tan();
+        self.chain(value, N::splat(1.0) + value.square())
+    }
+
+    #[inline(always)]
+    fn asin(self) -> Self {
+        self.chain_over(self.value.asin(), self.value.cathetus())
+    }
+
+    #[inline(always)]
+    fn acos(self) -> Self {
+        -self.chain_over(-self.value.acos(), self.value.cathetus())
     }
 }

@@ -1,13 +1,21 @@
 //! Floor 0: the numbers that a field can be evaluated over, and vectors of them.
 //!
 //! A distance function is written once over [`Number`]; which type it runs on decides what comes out: `f64` a value,
-//! `Lanes` many values at once, [`Dual`] a value with exact derivatives, `Interval` the range over a region.
+//! [`Lanes`] many values at once, [`Dual`] a value with exact derivatives, [`Interval`] the range over a region.
 
 mod dual;
+mod float;
+mod interval;
+mod kernels;
+mod lanes;
 mod number;
+#[cfg(test)]
+mod samples;
 mod scalar;
 mod vector;
 
 pub use dual::Dual;
+pub use interval::Interval;
+pub use lanes::{F32x64, F64x32, Lanes};
 pub use number::Number;
 pub use vector::Vec3;

@@ -21,10 +21,10 @@ pub trait Number:
     /// The constant `x` (rounded to the type; in an interval, an interval that contains `x`).
     fn splat(x: f64) -> Self;
 
-    /// The smaller of two; a NaN operand is passed over where the other is a number.
+    /// The smaller of two; a NaN operand is passed over where the other is a number; of two equals (two zeros) the second.
     fn min(self, other: Self) -> Self;
 
-    /// The larger of two; a NaN operand is passed over where the other is a number.
+    /// The larger of two; a NaN operand is passed over where the other is a number; of two equals (two zeros) the second.
     fn max(self, other: Self) -> Self;
 
     /// The absolute value; the derivative at 0 is that of the positive side.
@@ -36,19 +36,20 @@ pub trait Number:
     /// The largest whole number not above.
     fn floor(self) -> Self;
 
-    /// The sine.
+    /// The sine, off by at most 2 ulp.
     fn sin(self) -> Self;
 
-    /// The cosine.
+    /// The cosine, off by at most 2 ulp.
     fn cos(self) -> Self;
 
-    /// The angle of the point `(x, self)` from the x axis, in (-pi, pi]; 0 at the origin.
+    /// The angle of the point `(x, self)` from the x axis, in (-pi, pi], off by at most 2 ulp; 0 at the origin. The
+    /// sign of a zero has no say: on the negative x axis the angle is pi.
     fn atan2(self, x: Self) -> Self;
 
-    /// The exponential function.
+    /// The exponential function, off by at most 2 ulp.
     fn exp(self) -> Self;
 
-    /// The natural logarithm, NaN below zero.
+    /// The natural logarithm, off by at most 2 ulp; -infinity at 0, NaN below.
     fn ln(self) -> Self;
 
     /// `x` where `a < b`, else `y` (also where the comparison is undefined).
@@ -65,6 +66,13 @@ pub trait Number:
     #[inline(always)]
     fn floor_slope(self) -> Self {
         Self::splat(0.0)
+    }
+
+    /// What [`Number::atan2`] means for its derivative `slope` at the point `(x, self)`: unbounded where an interval
+    /// crosses the negative x axis, where the angle jumps.
+    #[inline(always)]
+    fn atan2_slope(self, _x: Self, slope: Self) -> Self {
+        slope
     }
 
     /// `self` held between `low` and `high`.
@@ -98,19 +106,73 @@ pub trait Number:
         Self::select_lt(zero, length, self / length, zero)
     }
 
-    /// `self` to the power `e`, by `exp(e ln(self))`: NaN below zero, 0 at 0 for `e > 0`, 1 for `e = 0`.
+    /// `self` to the power `e`, by `exp(e ln(self))`: NaN below zero; at zero 0, 1 or infinity as `e` is positive, 0 or
+    /// negative. Off by about `2 + |e ln(self)|` ulp.
     #[inline(always)]
     fn pow(self, e: Self) -> Self {
-        let zero = Self::splat(0.0);
         let general = (e * self.ln()).exp();
-        // ln(0) is -inf, and -inf * 0 has no value; x^0 is 1 for every x.
-        let at_zero = Self::select_lt(zero, e.abs(), zero, Self::splat(1.0));
-        let positive = Self::select_lt(zero, self, general, at_zero);
-        Self::select_lt(
-            self,
-            zero,
-            Self::select_lt(zero, e.abs(), general, Self::splat(1.0)),
-            positive,
-        )
+        // e ln(x) has no value at e = 0, x = 0; x^0 is 1 for every x. An e that is not a number stays so.
+        let at_zero = Self::splat(1.0) + e;
+        Self::select_lt(Self::splat(0.0), e.abs(), general, at_zero)
     }
+
+    /// `self` to the whole power `n`, by repeated squaring; 1 for `n = 0`. Off by at most `|n|` ulp (one more for
+    /// negative `n`).
+    #[inline(always)]
+    fn powi(self, n: i32) -> Self {
+        let power = whole_power(self, n.unsigned_abs());
+        if n < 0 {
+            Self::splat(1.0) / power
+        } else {
+            power
+        }
+    }
+
+    /// The tangent, off by at most 5 ulp.
+    #[inline(always)]
+    fn tan(self) -> Self {
+        self.sin() / self.cos()
+    }
+
+    /// The angle in [-pi/2, pi/2] with sine `self`, off by at most 5 ulp; NaN outside [-1, 1]. The derivative at the ends,
+    /// where it is infinite, is defined as 0.
+    #[inline(always)]
+    fn asin(self) -> Self {
+        self.atan2(self.cathetus())
+    }
+
+    /// The angle in [0, pi] with cosine `self`, off by at most 5 ulp; NaN outside [-1, 1]. The derivative at the ends,
+    /// where it is infinite, is defined as 0.
+    #[inline(always)]
+    fn acos(self) -> Self {
+        self.cathetus().atan2(self)
+    }
+
+    /// `sqrt(1 - self^2)`, the other side of a right triangle with hypotenuse 1, accurate also where it is small; NaN
+    /// outside [-1, 1].
+    #[inline(always)]
+    fn cathetus(self) -> Self {
+        let one = Self::splat(1.0);
+        ((one - self) * (one + self)).sqrt()
+    }
+
+    /// `self - floor(self)`, in [0, 1] (1 where a small negative number rounds to it).
+    #[inline(always)]
+    fn fract(self) -> Self {
+        self - self.floor()
+    }
+}
+
+/// `x^n` by repeated squaring, 1 for `n = 0`.
+#[inline(always)]
+pub(super) fn whole_power<N: Number>(x: N, n: u32) -> N {
+    let (mut power, mut square, mut left) = (N::splat(1.0), x, n);
+    while left > 0 {
+        if left & 1 == 1 {
+            power = power * square;
+        }
+        square = square.square();
+        left >>= 1;
+    }
+    power
 }

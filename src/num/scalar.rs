@@ -1,9 +1,10 @@
-//! Scalars: f64 and f32, with elementary functions that give the same bits on every machine.
+//! Scalars: f64 and f32, with elementary functions that give the same bits on every machine and in every lane.
 
-use super::Number;
+use super::float::Float;
+use super::{Number, kernels};
 
 macro_rules! scalar {
-    ($type:ty, $sin:path, $cos:path, $atan2:path, $exp:path, $ln:path) => {
+    ($type:ty) => {
         impl Number for $type {
             #[inline(always)]
             fn splat(x: f64) -> Self {
@@ -11,43 +12,43 @@ macro_rules! scalar {
             }
             #[inline(always)]
             fn min(self, o: Self) -> Self {
-                <$type>::min(self, o)
+                kernels::min(self, o)
             }
             #[inline(always)]
             fn max(self, o: Self) -> Self {
-                <$type>::max(self, o)
+                kernels::max(self, o)
             }
             #[inline(always)]
             fn abs(self) -> Self {
-                <$type>::abs(self)
+                Float::abs(self)
             }
             #[inline(always)]
             fn sqrt(self) -> Self {
-                <$type>::sqrt(self)
+                Float::sqrt(self)
             }
             #[inline(always)]
             fn floor(self) -> Self {
-                <$type>::floor(self)
+                kernels::floor(self)
             }
             #[inline(always)]
             fn sin(self) -> Self {
-                $sin(self)
+                kernels::sin(self)
             }
             #[inline(always)]
             fn cos(self) -> Self {
-                $cos(self)
+                kernels::cos(self)
             }
             #[inline(always)]
             fn atan2(self, x: Self) -> Self {
-                $atan2(self, x)
+                kernels::atan2(self, x)
             }
             #[inline(always)]
             fn exp(self) -> Self {
-                $exp(self)
+                kernels::exp(self)
             }
             #[inline(always)]
             fn ln(self) -> Self {
-                $ln(self)
+                kernels::ln(self)
             }
             #[inline(always)]
             fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self {
@@ -57,12 +58,5 @@ macro_rules! scalar {
     };
 }
 
-scalar!(f64, libm::sin, libm::cos, libm::atan2, libm::exp, libm::log);
-scalar!(
-    f32,
-    libm::sinf,
-    libm::cosf,
-    libm::atan2f,
-    libm::expf,
-    libm::logf
-);
+scalar!(f64);
+scalar!(f32);

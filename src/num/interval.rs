@@ -1,0 +1,507 @@
+//! Intervals: the range of a field over a region, rounded outwards.
+//!
+//! An operation gives an interval that holds the exact result, and the `f64` result, for all finite operands within its
+//! arguments. Infinite ends mean unbounded. Where some operands have no result (the root of a negative number, zero by
+//! zero) the answer is [`Interval::ENTIRE`], which also stands for "perhaps not a number".
+
+use super::Number;
+use super::number::whole_power;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// All numbers from `lo` to `hi`; never empty, no end is NaN.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// The lower end.
+    pub lo: f64,
+    /// The upper end.
+    pub hi: f64,
+}
+
+/// Ends that come from an elementary function are moved outwards by so many steps. The kernels are off by at most 2 ulp:
+/// twice that holds both the exact value and the kernel's at any point between the ends.
+const KERNEL_STEPS: u32 = 4;
+
+/// The same for functions composed of two kernels and a root (`tan`, `asin`, `acos`).
+const COMPOSED_STEPS: u32 = 12;
+
+/// `x` moved down by `steps` floating point numbers.
+fn below(x: f64, steps: u32) -> f64 {
+    (0..steps).fold(x, |x, _| x.next_down())
+}
+
+/// `x` moved up by `steps` floating point numbers.
+fn above(x: f64, steps: u32) -> f64 {
+    (0..steps).fold(x, |x, _| x.next_up())
+}
+
+/// What rounding took from the sum `s = a + b`, exactly (Knuth's two-sum); NaN where the sum overflows.
+fn lost_in_sum(a: f64, b: f64, s: f64) -> f64 {
+    let shadow = s - a;
+    (a - (s - shadow)) + (b - shadow)
+}
+
+/// `a + b` rounded down; exact sums stay.
+fn sum_down(a: f64, b: f64) -> f64 {
+    let s = a + b;
+    let lost = lost_in_sum(a, b, s);
+    if lost >= 0.0 { s } else { s.next_down() }
+}
+
+/// `a + b` rounded up; exact sums stay.
+fn sum_up(a: f64, b: f64) -> f64 {
+    -sum_down(-a, -b)
+}
+
+/// The limit of products at `a` and `b`: an infinite end never meets zero itself, so 0 stays 0.
+fn product(a: f64, b: f64) -> f64 {
+    if a == 0.0 || b == 0.0 { 0.0 } else { a * b }
+}
+
+/// The limit of quotients at `a` and a `b` other than 0; finite by infinite is 0.
+fn quotient(a: f64, b: f64) -> f64 {
+    if b.is_infinite() { 0.0 } else { a / b }
+}
+
+/// Whether some whole number lies in `[a, b]`; also true where rounding leaves it open. The ends may be off by
+/// three rounding errors.
+fn may_hold_whole(a: f64, b: f64) -> bool {
+    let slack = 2.0 * f64::EPSILON * (a.abs() + b.abs() + 1.0);
+    let is_finite = slack.is_finite();
+    !is_finite || (b + slack).floor() >= (a - slack).ceil()
+}
+
+impl Interval {
+    /// All numbers, and "perhaps not a number".
+    pub const ENTIRE: Self = Self {
+        lo: f64::NEG_INFINITY,
+        hi: f64::INFINITY,
+    };
+
+    /// The number 0.
+    const ZERO: Self = Self { lo: 0.0, hi: 0.0 };
+
+    /// The number 1.
+    const ONE: Self = Self { lo: 1.0, hi: 1.0 };
+
+    /// From the lesser to the greater of two ends, in whichever order; `ENTIRE` if one is NaN.
+    pub fn new(lo: f64, hi: f64) -> Self {
+        if lo <= hi {
+            Self { lo, hi }
+        } else if hi < lo {
+            Self { lo: hi, hi: lo }
+        } else {
+            Self::ENTIRE
+        }
+    }
+
+    /// The number `x` alone; `ENTIRE` if it is NaN.
+    pub fn point(x: f64) -> Self {
+        Self::new(x, x)
+    }
+
+    /// Whether `x` is one of the numbers. NaN counts as contained where the interval is `ENTIRE`.
+    pub fn contains(self, x: f64) -> bool {
+        self == Self::ENTIRE || self.lo <= x && x <= self.hi
+    }
+
+    /// The distance of the ends, rounded up.
+    pub fn width(self) -> f64 {
+        if self.lo == self.hi {
+            0.0
+        } else {
+            sum_up(self.hi, -self.lo)
+        }
+    }
+
+    /// A finite number about the middle; never outside.
+    pub fn mid(self) -> f64 {
+        let (lo, hi) = (self.lo.max(f64::MIN), self.hi.min(f64::MAX));
+        (0.5 * lo + 0.5 * hi).max(lo).min(hi)
+    }
+
+    /// The smallest interval that contains both.
+    pub fn hull(self, o: Self) -> Self {
+        Self {
+            lo: self.lo.min(o.lo),
+            hi: self.hi.max(o.hi),
+        }
+    }
+
+    /// The largest absolute value.
+    pub fn magnitude(self) -> f64 {
+        self.lo.abs().max(self.hi.abs())
+    }
+
+    /// The smallest absolute value.
+    pub fn mignitude(self) -> f64 {
+        if self.lo <= 0.0 && self.hi >= 0.0 {
+            0.0
+        } else {
+            self.lo.abs().min(self.hi.abs())
+        }
+    }
+
+    /// The ends moved outwards by `steps` numbers, but not out of `[low, high]`.
+    fn widened(self, steps: u32, low: f64, high: f64) -> Self {
+        Self::new(
+            below(self.lo, steps).max(low),
+            above(self.hi, steps).min(high),
+        )
+    }
+
+    /// The smallest interval around the `ends`, one rounding error wider; on one side of 0 if `signs` multiply so.
+    fn rounded(ends: [f64; 4], (a, b): (Self, Self)) -> Self {
+        let lo = ends.into_iter().fold(f64::INFINITY, f64::min);
+        let hi = ends.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let is_same_sign = a.lo >= 0.0 && b.lo >= 0.0 || a.hi <= 0.0 && b.hi <= 0.0;
+        let is_opposite = a.lo >= 0.0 && b.hi <= 0.0 || a.hi <= 0.0 && b.lo >= 0.0;
+        let low = if is_same_sign { 0.0 } else { f64::NEG_INFINITY };
+        let high = if is_opposite { 0.0 } else { f64::INFINITY };
+        Self { lo, hi }.widened(1, low, high)
+    }
+
+    /// The monotone function `f` of all numbers, off by at most `steps` numbers, with values in `[low, high]`.
+    fn monotone(self, f: impl Fn(f64) -> f64, steps: u32, low: f64, high: f64) -> Self {
+        Self::new(f(self.lo), f(self.hi)).widened(steps, low, high)
+    }
+
+    /// A function of period 2 pi with values in [-1, 1], `f` at the ends, that is 1 at `peak` turns and -1 half a turn on.
+    fn wave(self, f: impl Fn(f64) -> f64, peak: f64) -> Self {
+        let (a, b) = (self.lo / TAU - peak, self.hi / TAU - peak);
+        let has_peak = may_hold_whole(a, b);
+        let has_trough = may_hold_whole(a - 0.5, b - 0.5);
+        if has_peak && has_trough {
+            return Self::new(-1.0, 1.0);
+        }
+        let ends = Self::new(f(self.lo), f(self.hi)).widened(KERNEL_STEPS, -1.0, 1.0);
+        Self {
+            lo: if has_trough { -1.0 } else { ends.lo },
+            hi: if has_peak { 1.0 } else { ends.hi },
+        }
+    }
+
+    /// The greatest `c / length` with `c` in `self`, where no `|c|` exceeds its length; 0 where the length is 0.
+    fn greatest_cosine(self, length: Self) -> f64 {
+        let c = self.hi;
+        if c <= 0.0 {
+            let top = quotient(c, length.hi.max(f64::MIN_POSITIVE));
+            return if length.lo > 0.0 {
+                top.next_up().min(0.0)
+            } else {
+                0.0
+            };
+        }
+        if c >= length.lo {
+            1.0
+        } else {
+            quotient(c, length.lo).next_up().min(1.0)
+        }
+    }
+}
+
+impl Add for Interval {
+    type Output = Self;
+    fn add(self, o: Self) -> Self {
+        Self::new(sum_down(self.lo, o.lo), sum_up(self.hi, o.hi))
+    }
+}
+
+impl Sub for Interval {
+    type Output = Self;
+    fn sub(self, o: Self) -> Self {
+        self + -o
+    }
+}
+
+impl Mul for Interval {
+    type Output = Self;
+    fn mul(self, o: Self) -> Self {
+        if self == Self::ZERO || o == Self::ZERO {
+            return Self::ZERO;
+        }
+        if self == Self::ONE {
+            return o;
+        }
+        if o == Self::ONE {
+            return self;
+        }
+        let ends = [
+            product(self.lo, o.lo),
+            product(self.lo, o.hi),
+            product(self.hi, o.lo),
+            product(self.hi, o.hi),
+        ];
+        Self::rounded(ends, (self, o))
+    }
+}
+
+impl Div for Interval {
+    type Output = Self;
+
+    /// A divisor that touches 0 from one side gives a half-line; one around 0 gives everything.
+    fn div(self, o: Self) -> Self {
+        if o == Self::ONE {
+            return self;
+        }
+        if o.hi <= 0.0 && o.lo < 0.0 {
+            return -self / -o;
+        }
+        if o.lo < 0.0 || o.hi <= 0.0 || o.lo == f64::INFINITY {
+            return Self::ENTIRE;
+        }
+        if o.lo == 0.0 {
+            return self.over_up_to(o.hi);
+        }
+        if self == Self::ZERO {
+            return Self::ZERO;
+        }
+        let ends = [
+            quotient(self.lo, o.lo),
+            quotient(self.lo, o.hi),
+            quotient(self.hi, o.lo),
+            quotient(self.hi, o.hi),
+        ];
+        Self::rounded(ends, (self, o))
+    }
+}
+
+impl Interval {
+    /// `self^n`: monotone on each side of 0, so the extremes are at the ends, and at 0 for even powers.
+    fn whole_power(self, n: u32) -> Self {
+        let ends = if n.is_multiple_of(2) {
+            self.abs()
+        } else {
+            self
+        };
+        let [low, high] = [ends.lo, ends.hi].map(|x| whole_power(Self::point(x), n));
+        low.hull(high)
+    }
+
+    /// `self` by all numbers of (0, b].
+    fn over_up_to(self, b: f64) -> Self {
+        if self.lo > 0.0 {
+            Self::new(quotient(self.lo, b).next_down().max(0.0), f64::INFINITY)
+        } else if self.hi < 0.0 {
+            Self::new(f64::NEG_INFINITY, quotient(self.hi, b).next_up().min(0.0))
+        } else {
+            Self::ENTIRE
+        }
+    }
+}
+
+impl Neg for Interval {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self {
+            lo: -self.hi,
+            hi: -self.lo,
+        }
+    }
+}
+
+impl Number for Interval {
+    fn splat(x: f64) -> Self {
+        Self::point(x)
+    }
+
+    fn min(self, o: Self) -> Self {
+        Self {
+            lo: self.lo.min(o.lo),
+            hi: self.hi.min(o.hi),
+        }
+    }
+
+    fn max(self, o: Self) -> Self {
+        Self {
+            lo: self.lo.max(o.lo),
+            hi: self.hi.max(o.hi),
+        }
+    }
+
+    fn abs(self) -> Self {
+        Self {
+            lo: self.mignitude(),
+            hi: self.magnitude(),
+        }
+    }
+
+    fn sqrt(self) -> Self {
+        if self.lo < 0.0 {
+            return Self::ENTIRE;
+        }
+        let root = |x: f64, round: fn(f64) -> f64| if x == 0.0 { 0.0 } else { round(x.sqrt()) };
+        Self {
+            lo: root(self.lo, f64::next_down),
+            hi: root(self.hi, f64::next_up),
+        }
+    }
+
+    fn floor(self) -> Self {
+        Self {
+            lo: self.lo.floor(),
+            hi: self.hi.floor(),
+        }
+    }
+
+    fn sin(self) -> Self {
+        self.wave(Number::sin, 0.25)
+    }
+
+    fn cos(self) -> Self {
+        self.wave(Number::cos, 0.0)
+    }
+
+    /// Tight where the box does not cross the negative x axis; there [-pi, pi].
+    fn atan2(self, x: Self) -> Self {
+        let full = Self::new(-PI.next_up(), PI.next_up());
+        if crosses_cut(self, x) {
+            return full;
+        }
+        // The angle turns one way along every side of the box: its extremes are at corners.
+        let sides = [
+            (self.lo, x.lo),
+            (self.lo, x.hi),
+            (self.hi, x.lo),
+            (self.hi, x.hi),
+        ];
+        let corners = sides.map(|(y, x)| Self::point(Number::atan2(y, x)));
+        let [a, b, c, d] = corners;
+        a.hull(b)
+            .hull(c)
+            .hull(d)
+            .widened(KERNEL_STEPS, full.lo, full.hi)
+    }
+
+    fn exp(self) -> Self {
+        self.monotone(Number::exp, KERNEL_STEPS, 0.0, f64::INFINITY)
+    }
+
+    fn ln(self) -> Self {
+        if self.lo < 0.0 {
+            return Self::ENTIRE;
+        }
+        self.monotone(Number::ln, KERNEL_STEPS, f64::NEG_INFINITY, f64::INFINITY)
+    }
+
+    fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self {
+        if a.hi < b.lo {
+            x
+        } else if a.lo >= b.hi {
+            y
+        } else {
+            x.hull(y)
+        }
+    }
+
+    fn select_lt_slope(a: Self, b: Self, x: Self, y: Self) -> Self {
+        if a.hi < b.lo {
+            x
+        } else if a.lo >= b.hi {
+            y
+        } else {
+            Self::ENTIRE
+        }
+    }
+
+    fn floor_slope(self) -> Self {
+        if self.lo.floor() == self.hi.floor() {
+            Self::ZERO
+        } else {
+            Self::ENTIRE
+        }
+    }
+
+    fn square(self) -> Self {
+        let (near, far) = (self.abs().lo, self.abs().hi);
+        let square = |x: f64, round: fn(f64) -> f64| if x == 0.0 { 0.0 } else { round(x * x) };
+        Self {
+            lo: square(near, f64::next_down).max(0.0),
+            hi: square(far, f64::next_up),
+        }
+    }
+
+    fn pow(self, e: Self) -> Self {
+        if self.lo < 0.0 {
+            return Self::ENTIRE;
+        }
+        let power = (e * self.ln()).exp();
+        // 0^0 is 1, and x^0 for a negative x.
+        let has_zero = self.lo <= 0.0 && e.contains(0.0);
+        if has_zero {
+            power.hull(Self::ONE)
+        } else {
+            power
+        }
+    }
+
+    fn powi(self, n: i32) -> Self {
+        let power = self.whole_power(n.unsigned_abs());
+        if n < 0 { Self::ONE / power } else { power }
+    }
+
+    /// Everything where a pole may lie inside.
+    fn tan(self) -> Self {
+        if may_hold_whole(self.lo / PI - 0.5, self.hi / PI - 0.5) {
+            return Self::ENTIRE;
+        }
+        self.monotone(
+            Number::tan,
+            COMPOSED_STEPS,
+            f64::NEG_INFINITY,
+            f64::INFINITY,
+        )
+    }
+
+    fn asin(self) -> Self {
+        if self.magnitude() > 1.0 {
+            return Self::ENTIRE;
+        }
+        let limit = FRAC_PI_2.next_up();
+        self.monotone(Number::asin, COMPOSED_STEPS, -limit, limit)
+    }
+
+    fn acos(self) -> Self {
+        if self.magnitude() > 1.0 {
+            return Self::ENTIRE;
+        }
+        self.monotone(Number::acos, COMPOSED_STEPS, 0.0, PI.next_up())
+    }
+
+    fn fract(self) -> Self {
+        let floor = self.floor();
+        let fract = if floor.lo == floor.hi {
+            self - floor
+        } else {
+            Self { lo: 0.0, hi: 1.0 }
+        };
+        Self {
+            lo: fract.lo.max(0.0),
+            hi: fract.hi.min(1.0),
+        }
+    }
+
+    fn atan2_slope(self, x: Self, slope: Self) -> Self {
+        if crosses_cut(self, x) {
+            Self::ENTIRE
+        } else {
+            slope
+        }
+    }
+
+    /// Uses that no component exceeds the length: within [-1, 1] even where the length may be 0.
+    fn direction_cosine(self, length: Self) -> Self {
+        if length.hi <= 0.0 {
+            return Self::ZERO;
+        }
+        Self {
+            lo: -(-self).greatest_cosine(length),
+            hi: self.greatest_cosine(length),
+        }
+    }
+}
+
+/// Whether points of the box lie on both sides of the cut of `atan2`, the negative x axis.
+fn crosses_cut(y: Interval, x: Interval) -> bool {
+    x.lo < 0.0 && y.lo < 0.0 && y.hi >= 0.0
+}

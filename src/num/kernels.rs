@@ -1,0 +1,369 @@
+//! Elementary functions: short, free of branches, the same bits on every machine and in every lane.
+//!
+//! Each kernel is plain arithmetic without fused multiply-add, so a loop over lanes vectorises on any processor and
+//! gives the bits of the scalar call. The algorithms are those of fdlibm (Sun Microsystems 1993), with selections in
+//! place of its branches; the coefficients stand in [`Float`].
+
+use super::float::Float;
+
+/// `c[0] + c[1] x + c[2] x^2 + ...`.
+#[inline(always)]
+fn polynomial<T: Float>(c: &[T], x: T) -> T {
+    let mut sum = c[c.len() - 1];
+    let mut i = c.len() - 1;
+    while i > 0 {
+        i -= 1;
+        sum = sum * x + c[i];
+    }
+    sum
+}
+
+/// The smaller of two: `b` if they are equal (so of two zeros the second), the other one if one is NaN.
+#[inline(always)]
+pub fn min<T: Float>(a: T, b: T) -> T {
+    let smaller = if a < b { a } else { b };
+    if is_nan(b) { a } else { smaller }
+}
+
+/// The larger of two: `b` if they are equal (so of two zeros the second), the other one if one is NaN.
+#[inline(always)]
+pub fn max<T: Float>(a: T, b: T) -> T {
+    let larger = if a > b { a } else { b };
+    if is_nan(b) { a } else { larger }
+}
+
+/// Whether `x` is not a number.
+#[inline(always)]
+#[allow(clippy::eq_op, reason = "only NaN differs from itself")]
+fn is_nan<T: Float>(x: T) -> bool {
+    x != x
+}
+
+/// The largest whole number not above `x`, exact; keeps the sign of zero, infinities and NaN.
+///
+/// The standard library's is a function call on processors before SSE4.1.
+#[inline(always)]
+pub fn floor<T: Float>(x: T) -> T {
+    let nearest = ((x.abs() + T::WHOLE) - T::WHOLE).with_sign_of(x);
+    let below = if nearest > x {
+        nearest - T::ONE
+    } else {
+        nearest
+    };
+    if x.abs() < T::WHOLE {
+        below.with_sign_of(x)
+    } else {
+        x
+    }
+}
+
+/// Whether the kernels of sine and cosine do not reach `x`. False for NaN.
+#[inline(always)]
+pub fn is_beyond_trig<T: Float>(x: T) -> bool {
+    x.abs() > T::TRIG_RANGE
+}
+
+/// The sine, off by at most 2 ulp.
+#[inline(always)]
+pub fn sin<T: Float>(x: T) -> T {
+    if is_beyond_trig(x) {
+        x.sin_anywhere()
+    } else {
+        sin_near(x)
+    }
+}
+
+/// The cosine, off by at most 2 ulp.
+#[inline(always)]
+pub fn cos<T: Float>(x: T) -> T {
+    if is_beyond_trig(x) {
+        x.cos_anywhere()
+    } else {
+        cos_near(x)
+    }
+}
+
+/// The sine within `TRIG_RANGE`, off by at most 2 ulp; without meaning beyond.
+#[inline(always)]
+pub fn sin_near<T: Float>(x: T) -> T {
+    let (r, quadrant) = x.quadrant();
+    let sine = sin_in_quadrant(r, quadrant);
+    // The polynomial loses the sign of zero.
+    if x == T::ZERO { x } else { sine }
+}
+
+/// The cosine within `TRIG_RANGE`, off by at most 2 ulp; without meaning beyond.
+#[inline(always)]
+pub fn cos_near<T: Float>(x: T) -> T {
+    let (r, quadrant) = x.quadrant();
+    sin_in_quadrant(r, quadrant + T::ONE)
+}
+
+/// `sin(r + k pi/2)` for `|r| <= pi/4` and `quadrant = ROUNDER + k`.
+#[inline(always)]
+fn sin_in_quadrant<T: Float>(r: T, quadrant: T) -> T {
+    let z = r * r;
+    let sine = r + r * (z * polynomial(T::SIN, z));
+    let half = T::HALF * z;
+    let rest = z * z * polynomial(T::COS, z);
+    // 1 - half loses bits of half; they are added back.
+    let near_one = T::ONE - half;
+    let cosine = near_one + (((T::ONE - near_one) - half) + rest);
+    quadrant.orient(if quadrant.is_odd() { cosine } else { sine })
+}
+
+/// The exponential function, off by at most 2 ulp (half the smallest subnormal more where it is subnormal); 0 and
+/// infinity where it underflows and overflows.
+#[inline(always)]
+pub fn exp<T: Float>(x: T) -> T {
+    let x = if x < T::EXP_LOW { T::EXP_LOW } else { x };
+    let x = if x > T::EXP_HIGH { T::EXP_HIGH } else { x };
+    let k = (x * T::LOG2_E + T::ROUNDER) - T::ROUNDER;
+    let high = x - k * T::LN2_HIGH;
+    let low = k * T::LN2_LOW;
+    let r = high - low;
+    let value = T::ONE + (high + (r * r * polynomial(T::EXP, r) - low));
+    // 2^k itself may lie outside the normal exponents, its halves do not.
+    let half = (k * T::HALF + T::ROUNDER) - T::ROUNDER;
+    value * half.power_of_two() * (k - half).power_of_two()
+}
+
+/// The natural logarithm, off by at most 2 ulp; -infinity at 0, NaN below.
+#[inline(always)]
+pub fn ln<T: Float>(x: T) -> T {
+    let is_subnormal = x < T::MIN_POSITIVE;
+    let scaled = if is_subnormal {
+        x * T::SUBNORMAL_SCALE
+    } else {
+        x
+    };
+    let shift = if is_subnormal {
+        T::SUBNORMAL_SHIFT
+    } else {
+        T::ZERO
+    };
+    let (k, m) = scaled.split_exponent();
+    let value = ln_of_product(k - shift, m);
+    let value = if x < T::INFINITY { value } else { x };
+    let at_most_zero = if x < T::ZERO { T::NAN } else { -T::INFINITY };
+    if x <= T::ZERO { at_most_zero } else { value }
+}
+
+/// `ln(2^k m)` for `m` in `[sqrt(1/2), sqrt 2)`.
+#[inline(always)]
+fn ln_of_product<T: Float>(k: T, m: T) -> T {
+    let f = m - T::ONE;
+    let s = f / (T::TWO + f);
+    let z = s * s;
+    let half = T::HALF * f * f;
+    let rest = s * (half + z * polynomial(T::LN, z)) + k * T::LN2_LOW;
+    k * T::LN2_HIGH - ((half - rest) - f)
+}
+
+/// The angle of the point `(x, y)` from the x axis, in (-pi, pi], off by at most 2 ulp; 0 at the origin.
+///
+/// Zeros have no sign here: on the negative x axis the angle is pi, from either side of it.
+#[inline(always)]
+pub fn atan2<T: Float>(y: T, x: T) -> T {
+    let (v, u) = (y.abs(), x.abs());
+    let is_steep = v > u;
+    let (n, d) = if is_steep { (u, v) } else { (v, u) };
+    let (n, d) = finite_quotient(n, d);
+    let angle = atan_of_quotient(n, d);
+    // (start, rest) + or - the angle in the first octant.
+    let is_left = x < T::ZERO;
+    let [axis, rest] = if is_left { T::PI } else { [T::ZERO; 2] };
+    let [axis, rest] = if is_steep { T::HALF_PI } else { [axis, rest] };
+    let turned = if is_steep != is_left { -angle } else { angle };
+    let upper = axis + (rest + turned);
+    let angle = if y < T::ZERO { -upper } else { upper };
+    let undefined = y + x;
+    if is_nan(y) | is_nan(x) {
+        undefined
+    } else {
+        angle
+    }
+}
+
+/// `(n, d)` with the same quotient for `0 <= n <= d`, such that `n / d` and `n + 2 d` are defined and finite.
+#[inline(always)]
+fn finite_quotient<T: Float>(n: T, d: T) -> (T, T) {
+    let scale = if d > T::LARGE {
+        T::HALF * T::HALF
+    } else {
+        T::ONE
+    };
+    let (n, d) = (n * scale, d * scale);
+    let corner = if n == d { T::ONE } else { T::ZERO };
+    let is_infinite = d == T::INFINITY;
+    let n = if is_infinite { corner } else { n };
+    let d = if is_infinite | (d == T::ZERO) {
+        T::ONE
+    } else {
+        d
+    };
+    (n, d)
+}
+
+/// `atan(n / d)` for `0 <= n <= d`: reduced about 0, 1/2 or 1, with one division.
+#[inline(always)]
+fn atan_of_quotient<T: Float>(n: T, d: T) -> T {
+    let is_low = n < T::from_f64(7.0 / 16.0) * d;
+    let is_middle = n < T::from_f64(11.0 / 16.0) * d;
+    let [start, rest] = if is_middle { T::ATAN_HALF } else { T::ATAN_ONE };
+    let [start, rest] = if is_low { [T::ZERO; 2] } else { [start, rest] };
+    let (a, b) = if is_middle {
+        (n + n - d, d + d + n)
+    } else {
+        (n - d, d + n)
+    };
+    let (a, b) = if is_low { (n, d) } else { (a, b) };
+    let t = a / b;
+    let z = t * t;
+    start - ((t * (z * polynomial(T::ATAN, z)) - rest) - t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::Samples;
+    use super::*;
+
+    const SEED: u64 = 0xf1e1d;
+    const COUNT: usize = 400_000;
+
+    /// The error of `got` in units of the last place of an `f32`, against `exact`.
+    fn ulps_f32(got: f32, exact: f64) -> f64 {
+        let nearest = exact as f32;
+        if got == nearest || got.is_nan() && nearest.is_nan() {
+            return 0.0;
+        }
+        let ulp = (nearest.abs().next_up() - nearest.abs()) as f64;
+        (got as f64 - exact).abs() / ulp
+    }
+
+    /// How many numbers lie between two `f64` of one sign.
+    fn ulps_f64(got: f64, libm: f64) -> f64 {
+        if got == libm || got.is_nan() && libm.is_nan() {
+            return 0.0;
+        }
+        assert_eq!(
+            got.is_sign_negative(),
+            libm.is_sign_negative(),
+            "{got:e} for {libm:e}"
+        );
+        got.to_bits().abs_diff(libm.to_bits()) as f64
+    }
+
+    /// The worst error over `COUNT` inputs.
+    fn worst<X: std::fmt::Debug + Copy>(
+        name: &str,
+        mut input: impl FnMut(&mut Samples) -> X,
+        error: impl Fn(X) -> f64,
+        bound: f64,
+    ) {
+        let mut samples = Samples::new(SEED);
+        let (mut most, mut at) = (0.0, None);
+        for _ in 0..COUNT {
+            let x = input(&mut samples);
+            let e = error(x);
+            if e > most || e.is_nan() {
+                (most, at) = (e, Some(x));
+            }
+            assert!(e <= bound, "{name}: {e} ulp at {x:?}, seed {SEED:#x}");
+        }
+        println!("{name}: {most:.3} ulp at {at:?}");
+    }
+
+    /// Half uniform, half of every magnitude, and sometimes next to a multiple of pi/2.
+    fn angle(samples: &mut Samples, range: f64) -> f64 {
+        match samples.below(3) {
+            0 => samples.uniform(-range, range),
+            1 => samples.scaled(-20.0, range.log10()),
+            _ => samples.uniform(-range, range).trunc() * std::f64::consts::FRAC_PI_2 % range,
+        }
+    }
+
+    #[test]
+    fn single_precision_is_within_two_ulp() {
+        let angle32 = |s: &mut Samples| angle(s, 1e5) as f32;
+        worst(
+            "sin",
+            angle32,
+            |x| ulps_f32(sin(x), libm::sin(x.into())),
+            2.0,
+        );
+        worst(
+            "cos",
+            angle32,
+            |x| ulps_f32(cos(x), libm::cos(x.into())),
+            2.0,
+        );
+        let exponent = |s: &mut Samples| s.uniform(-110.0, 95.0) as f32;
+        worst(
+            "exp",
+            exponent,
+            |x| ulps_f32(exp(x), libm::exp(x.into())),
+            2.0,
+        );
+        let positive = |s: &mut Samples| f32::from_bits(s.below(0x7f80_0000) as u32);
+        worst(
+            "ln",
+            positive,
+            |x| ulps_f32(ln(x), libm::log(x.into())),
+            2.0,
+        );
+        let near_one = |s: &mut Samples| s.uniform(0.5, 2.0) as f32;
+        worst(
+            "ln near 1",
+            near_one,
+            |x| ulps_f32(ln(x), libm::log(x.into())),
+            2.0,
+        );
+        let pair = |s: &mut Samples| [0; 2].map(|_| s.scaled(-3.0, 3.0) as f32);
+        worst(
+            "atan2",
+            pair,
+            |[y, x]| ulps_f32(atan2(y, x), libm::atan2(y.into(), x.into())),
+            2.0,
+        );
+        let any = |s: &mut Samples| [0; 2].map(|_| f32::from_bits(s.bits() as u32));
+        worst(
+            "atan2 anywhere",
+            any,
+            |[y, x]| ulps_f32(atan2(y, x), libm::atan2(y.into(), x.into())),
+            2.0,
+        );
+    }
+
+    #[test]
+    fn double_precision_is_within_three_ulp_of_libm() {
+        let angle64 = |s: &mut Samples| angle(s, 1e5);
+        worst("sin", angle64, |x| ulps_f64(sin(x), libm::sin(x)), 3.0);
+        worst("cos", angle64, |x| ulps_f64(cos(x), libm::cos(x)), 3.0);
+        let exponent = |s: &mut Samples| s.uniform(-750.0, 712.0);
+        worst("exp", exponent, |x| ulps_f64(exp(x), libm::exp(x)), 3.0);
+        let positive = |s: &mut Samples| f64::from_bits(s.bits() % f64::INFINITY.to_bits());
+        worst("ln", positive, |x| ulps_f64(ln(x), libm::log(x)), 3.0);
+        let near_one = |s: &mut Samples| s.uniform(0.5, 2.0);
+        worst(
+            "ln near 1",
+            near_one,
+            |x| ulps_f64(ln(x), libm::log(x)),
+            3.0,
+        );
+        let pair = |s: &mut Samples| [0; 2].map(|_| s.scaled(-3.0, 3.0));
+        worst(
+            "atan2",
+            pair,
+            |[y, x]| ulps_f64(atan2(y, x), libm::atan2(y, x)),
+            3.0,
+        );
+        let any = |s: &mut Samples| [0; 2].map(|_| f64::from_bits(s.bits()));
+        worst(
+            "atan2 anywhere",
+            any,
+            |[y, x]| ulps_f64(atan2(y, x), libm::atan2(y, x)),
+            3.0,
+        );
+    }
+}

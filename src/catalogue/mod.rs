@@ -1,1 +1,37 @@
-//! Under construction.
+//! Floor 1: every primitive, combinator and modifier, declared once.
+//!
+//! To add an entry, write its declaration ([`declaration::entry!`]) with its mathematics in a file of its own, and its
+//! name into one of the lists below. The script's word, its error messages, the reference and the laws follow.
+
+mod blend;
+mod bounds;
+mod combination;
+pub(crate) mod declaration;
+mod facts;
+mod function;
+mod modifier;
+mod modifiers;
+mod plane_geometry;
+mod primitive;
+mod profiles;
+mod solids;
+
+pub(crate) use blend::with_blend;
+pub use blend::{AnyBlend, Blend, Hard, Smooth};
+pub use bounds::Bounds;
+pub use combination::{Combination, Operation};
+pub use declaration::{
+    AXES, Argument, Axis, Declaration, Declared, Kind, Parameter, Parametric, Range,
+};
+pub use facts::{Class, Traits};
+pub use function::Function;
+pub use modifier::{Modifier, Similarity};
+pub use modifiers::{
+    Extrude, Mirror, Offset, Repeat, Revolve, Rotate, Scale, Shell, Translate, Twist,
+};
+pub use primitive::Primitive;
+pub use profiles::{Circle, Polygon, Rectangle};
+pub use solids::{Capsule, Cone, Cuboid, Cylinder, Ellipsoid, Plane, Sphere, Torus, Triangle};
+
+primitive::primitives!($ Sphere, Ellipsoid, Cuboid, Plane, Triangle, Cylinder, Cone, Capsule, Torus, Circle, Rectangle, Polygon);
+modifier::modifiers!($ Translate, Rotate, Scale, Mirror, Repeat, Twist, Offset, Shell, Extrude, Revolve);

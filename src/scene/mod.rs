@@ -1,1 +1,40 @@
-//! Under construction.
+//! Floor 2: the scene: a typed tree of shapes with its certificates, materials, lights, camera.
+
+mod camera;
+mod derive;
+mod environment;
+mod fault;
+mod graph;
+mod light;
+mod material;
+mod node;
+mod settings;
+
+use std::sync::Arc;
+
+pub use camera::{Camera, Projection};
+pub use derive::{Refutation, gradient_bound, refute};
+pub use environment::{Fog, Sky};
+pub use fault::Fault;
+pub use graph::{Graph, GraphBuilder, Id};
+pub use light::{Falloff, Light, Source};
+pub use material::{Material, Model, Shadow, Term};
+pub use node::{FieldShape, Node, Place, Shape};
+pub use settings::{Method, Settings};
+
+/// Everything that a picture shows.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// The shapes that are shown, in the order of the script; each is seen where it is, also inside of another.
+    pub shown: Vec<Arc<Node>>,
+    /// The lights.
+    pub lights: Vec<Light>,
+    /// The point of view.
+    pub camera: Camera,
+    /// What is seen where there is no shape.
+    pub sky: Sky,
+    /// What lies between, if anything.
+    pub fog: Option<Fog>,
+    /// How the picture is made.
+    pub settings: Settings,
+}

@@ -1,0 +1,149 @@
+//! Modifiers: transforms and warps of one child.
+
+use super::{Bounds, Declared, Traits};
+use crate::num::{Number, Vec3};
+
+/// The mathematics of a node with one child.
+pub trait Modifier: Declared {
+    /// The field at `p`, from values of the child at points that the modifier chooses.
+    fn apply<N: Number>(&self, p: &Vec3<N>, child: impl Fn(&Vec3<N>) -> N) -> N;
+
+    /// A box that holds every point where the field is at most `level >= 0`, from the same question about the child.
+    fn sublevel(&self, level: f64, child: &dyn Fn(f64) -> Bounds) -> Bounds;
+
+    /// A box that holds every point at which the child is evaluated for points of `region`.
+    fn domain(&self, region: Bounds) -> Bounds;
+
+    /// A Lipschitz constant on `region`, given one of the child on [`Modifier::domain`] of it; infinite where there is
+    /// none.
+    fn lipschitz(&self, child: f64, region: Bounds) -> f64;
+
+    /// The Lipschitz rule in words, with its source.
+    const RULE: &'static str;
+
+    /// What is known about the field, from what is known about the child.
+    fn traits(&self, child: &Traits) -> Traits;
+
+    /// The modifier as a similarity, where it is one.
+    fn similarity(&self) -> Option<Similarity> {
+        None
+    }
+
+    /// The modifier fitted to its child, of which `child` tells the sublevel boxes.
+    ///
+    /// # Errors
+    /// A sentence that says why this child can't be modified so, and one that says what to do instead.
+    fn fit(
+        &mut self,
+        _child: &Traits,
+        _sublevel: &dyn Fn(f64) -> Bounds,
+    ) -> Result<(), (String, String)> {
+        Ok(())
+    }
+
+    /// What no range of a single parameter can say.
+    ///
+    /// # Errors
+    /// The name of the parameter at fault and a sentence that says what is wrong with it.
+    fn check(&self) -> Result<(), (&'static str, String)> {
+        Ok(())
+    }
+}
+
+/// A map that keeps angles: the child is evaluated at `rows * p + shift` and its value is multiplied by `scale`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Similarity {
+    /// The rows of the matrix: a rotation or reflection, divided by `scale`.
+    pub rows: [[f64; 3]; 3],
+    /// What is added after the matrix.
+    pub shift: [f64; 3],
+    /// By how much lengths grow from the child to the outside; positive.
+    pub scale: f64,
+}
+
+impl Similarity {
+    /// The map that changes nothing.
+    pub const IDENTITY: Self = Self {
+        rows: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        shift: [0.0; 3],
+        scale: 1.0,
+    };
+
+    /// The map that does `self` first and then `inner`, on the way from the outside to the child.
+    pub fn then(&self, inner: &Self) -> Self {
+        let column = |j: usize| [self.rows[0][j], self.rows[1][j], self.rows[2][j]];
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        Self {
+            rows: inner
+                .rows
+                .map(|row| std::array::from_fn(|j| dot(row, column(j)))),
+            shift: std::array::from_fn(|i| dot(inner.rows[i], self.shift) + inner.shift[i]),
+            scale: self.scale * inner.scale,
+        }
+    }
+
+    /// The point at which the child is evaluated.
+    #[inline(always)]
+    pub fn point<N: Number>(&self, p: &Vec3<N>) -> Vec3<N> {
+        let [x, y, z] = self.rows.map(|r| Vec3::splat(r).dot(*p));
+        Vec3::new(x, y, z) + Vec3::splat(self.shift)
+    }
+
+    /// The outside point that the child's point `q` comes from.
+    pub fn outside(&self, q: [f64; 3]) -> [f64; 3] {
+        let v: [f64; 3] = std::array::from_fn(|i| q[i] - self.shift[i]);
+        let s = self.scale * self.scale;
+        std::array::from_fn(|j| s * (0..3).map(|i| self.rows[i][j] * v[i]).sum::<f64>())
+    }
+
+    /// The outside direction that the child's direction `v` comes from, with its length scaled.
+    pub fn outside_direction(&self, v: [f64; 3]) -> [f64; 3] {
+        let s = self.scale * self.scale;
+        std::array::from_fn(|j| s * (0..3).map(|i| self.rows[i][j] * v[i]).sum::<f64>())
+    }
+
+    /// Whether the matrix is the identity: the map only moves.
+    pub fn is_translation(&self) -> bool {
+        self.rows == Self::IDENTITY.rows && self.scale == 1.0
+    }
+}
+
+/// Lists the modifiers: the enum over all of them, and what follows from their declarations.
+macro_rules! modifiers {
+    ($dollar:tt $($type:ident),+ $(,)?) => {
+        /// Any modifier of the catalogue.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum AnyModifier {
+            $(
+                #[doc = concat!("See [`", stringify!($type), "`].")]
+                $type($type),
+            )+
+        }
+
+        /// Evaluates an expression in which the modifier inside an [`AnyModifier`] is bound to a name.
+        macro_rules! with_modifier {
+            ($dollar any:expr, $dollar bound:ident => $dollar body:expr) => {
+                match $dollar any { $( $dollar crate::catalogue::AnyModifier::$type($dollar bound) => $dollar body, )+ }
+            };
+        }
+
+        pub(crate) use with_modifier;
+
+        impl AnyModifier {
+            /// The declarations of all modifiers.
+            pub const DECLARATIONS: &'static [&'static Declaration] =
+                &[$(&<$type as Declared>::DECLARATION),+];
+
+            /// The modifier that scripts call `name`, made from checked arguments; none where there is no such name.
+            pub fn from_arguments(name: &str, arguments: &[Argument]) -> Option<Self> {
+                $(
+                    if name == <$type as Declared>::DECLARATION.name {
+                        return Some(Self::$type(<$type as Declared>::from_arguments(arguments)));
+                    }
+                )+
+                None
+            }
+        }
+    };
+}
+pub(crate) use modifiers;

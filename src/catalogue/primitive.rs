@@ -1,0 +1,70 @@
+//! Primitives: the leaves of a scene.
+
+use super::{Bounds, Declared, Traits};
+use crate::num::{Number, Vec3};
+
+/// The mathematics of a leaf: a solid in space, or a profile in the plane `z = 0` whose field ignores z.
+pub trait Primitive: Declared {
+    /// The field at `p`: positive outside, negative inside, at most the distance to the surface times
+    /// [`Primitive::lipschitz`].
+    fn distance<N: Number>(&self, p: &Vec3<N>) -> N;
+
+    /// A box that holds every point where the field is at most `level`, for `level >= 0`.
+    fn sublevel(&self, level: f64) -> Bounds;
+
+    /// What is known about the field.
+    fn traits(&self) -> Traits;
+
+    /// The smallest Lipschitz constant, on all of space.
+    fn lipschitz(&self) -> f64 {
+        1.0
+    }
+
+    /// What no range of a single parameter can say.
+    ///
+    /// # Errors
+    /// The name of the parameter at fault and a sentence that says what is wrong with it.
+    fn check(&self) -> Result<(), (&'static str, String)> {
+        Ok(())
+    }
+}
+
+/// Lists the primitives: the enum over all of them, and what follows from their declarations.
+macro_rules! primitives {
+    ($dollar:tt $($type:ident),+ $(,)?) => {
+        /// Any primitive of the catalogue.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum AnyPrimitive {
+            $(
+                #[doc = concat!("See [`", stringify!($type), "`].")]
+                $type($type),
+            )+
+        }
+
+        /// Evaluates an expression in which the primitive inside an [`AnyPrimitive`] is bound to a name.
+        macro_rules! with_primitive {
+            ($dollar any:expr, $dollar bound:ident => $dollar body:expr) => {
+                match $dollar any { $( $dollar crate::catalogue::AnyPrimitive::$type($dollar bound) => $dollar body, )+ }
+            };
+        }
+
+        pub(crate) use with_primitive;
+
+        impl AnyPrimitive {
+            /// The declarations of all primitives.
+            pub const DECLARATIONS: &'static [&'static Declaration] =
+                &[$(&<$type as Declared>::DECLARATION),+];
+
+            /// The primitive that scripts call `name`, made from checked arguments; none where there is no such name.
+            pub fn from_arguments(name: &str, arguments: &[Argument]) -> Option<Self> {
+                $(
+                    if name == <$type as Declared>::DECLARATION.name {
+                        return Some(Self::$type(<$type as Declared>::from_arguments(arguments)));
+                    }
+                )+
+                None
+            }
+        }
+    };
+}
+pub(crate) use primitives;

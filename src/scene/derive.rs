@@ -1,0 +1,166 @@
+//! Lipschitz constants of users' fields, by interval automatic differentiation over a region, refined by subdivision.
+
+use super::Graph;
+use crate::catalogue::Bounds;
+use crate::num::{Dual, Interval, Vec3};
+use std::collections::BinaryHeap;
+
+/// How many boxes the derivation of one constant may look at.
+const MAX_BOXES: usize = 2048;
+
+/// The derivation ends when the constant is known this closely: within 5 %.
+const ENOUGH: f64 = 1.05;
+
+/// A claim about a slope that a point refutes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Refutation {
+    /// Where the field is steeper than claimed.
+    pub point: [f64; 3],
+    /// How steep it is there.
+    pub slope: f64,
+}
+
+/// A bound of the gradient's length over `region`: infinite where it has none, or where the field jumps.
+pub fn gradient_bound(graph: &Graph, region: Bounds) -> f64 {
+    let [x, y, z] = std::array::from_fn(|i| {
+        let (low, high) = (region.low[i].max(-f64::MAX), region.high[i].min(f64::MAX));
+        Dual::variable(Interval::new(low, high), i)
+    });
+    let field: Dual<Interval, 3> = graph.value(&Vec3::new(x, y, z));
+    let slope = field
+        .partial
+        .iter()
+        .map(|d| d.magnitude())
+        .fold(0.0, f64::hypot)
+        .next_up();
+    if slope.is_nan() { f64::INFINITY } else { slope }
+}
+
+/// The length of the gradient at a point.
+fn slope_at(graph: &Graph, p: [f64; 3]) -> f64 {
+    let [x, y, z] = std::array::from_fn(|i| Dual::variable(p[i], i));
+    let field: Dual<f64, 3> = graph.value(&Vec3::new(x, y, z));
+    field.partial.iter().fold(0.0, |n: f64, d| n.hypot(*d))
+}
+
+/// A Lipschitz constant of the graph's first output on `region`: the largest gradient, at most 5 % above it where
+/// [`MAX_BOXES`] allow; infinite where none is known.
+pub(super) fn lipschitz_of_graph(graph: &Graph, region: Bounds) -> f64 {
+    if region.is_empty() {
+        return 0.0;
+    }
+    let first = Cell {
+        bound: gradient_bound(graph, region),
+        region,
+    };
+    if !region.is_finite() {
+        return first.bound;
+    }
+    let mut steepest = slope_at(graph, region.centre());
+    let mut cells = BinaryHeap::from([first]);
+    // The cell with the largest bound is cut in half until what it says is nearly attained.
+    while cells.len() < MAX_BOXES {
+        let top = cells.peek().expect("the region's cells cover it").bound;
+        if top <= steepest * ENOUGH {
+            break;
+        }
+        let cell = cells.pop().expect("peeked just now");
+        let halves = cell.halves();
+        if halves.iter().any(|half| half.size() == cell.region.size()) {
+            cells.push(cell);
+            break;
+        }
+        for half in halves {
+            let slope = slope_at(graph, half.centre());
+            if slope.is_finite() {
+                steepest = steepest.max(slope);
+            }
+            cells.push(Cell {
+                bound: gradient_bound(graph, half).min(cell.bound),
+                region: half,
+            });
+        }
+    }
+    cells.peek().map_or(f64::INFINITY, |cell| cell.bound)
+}
+
+/// A point in `region` where the field is steeper than `claimed`, if sampling finds one. Infinite sides are sampled up
+/// to 10 units from the origin.
+pub fn refute(graph: &Graph, claimed: f64, region: Bounds) -> Option<Refutation> {
+    const SAMPLES: u64 = 4096;
+    let region = if region.is_finite() {
+        region
+    } else {
+        region.intersect(Bounds::centred([10.0; 3]))
+    };
+    if region.is_empty() || gradient_bound(graph, region) <= claimed {
+        return None;
+    }
+    let steepest = (0..SAMPLES)
+        .map(|i| {
+            let point = sample(&region, i);
+            Refutation {
+                point,
+                slope: slope_at(graph, point),
+            }
+        })
+        .filter(|r| r.slope.is_finite())
+        .max_by(|a, b| a.slope.total_cmp(&b.slope))?;
+    // A part in 10^9 is rounding, not a refutation.
+    (steepest.slope > claimed * (1.0 + 1e-9)).then_some(steepest)
+}
+
+/// Point number `i` of a sequence that fills the box evenly. Source: Roberts 2018, R3 sequence.
+fn sample(region: &Bounds, i: u64) -> [f64; 3] {
+    const STEP: [f64; 3] = [
+        0.819_172_513_396_164_5,
+        0.671_043_606_703_789_2,
+        0.549_700_477_901_970_3,
+    ];
+    std::array::from_fn(|axis| {
+        let u = (0.5 + STEP[axis] * (i + 1) as f64).fract();
+        region.low[axis] + u * (region.high[axis] - region.low[axis])
+    })
+}
+
+/// A part of the region with a bound of the slope there.
+#[derive(Clone, Copy, Debug)]
+struct Cell {
+    bound: f64,
+    region: Bounds,
+}
+
+impl Cell {
+    /// The cell cut across its longest side.
+    fn halves(&self) -> [Bounds; 2] {
+        let size = self.region.size();
+        let axis = (0..3)
+            .max_by(|a, b| size[*a].total_cmp(&size[*b]))
+            .unwrap_or(0);
+        let middle = self.region.centre()[axis];
+        let (mut below, mut above) = (self.region, self.region);
+        below.high[axis] = middle;
+        above.low[axis] = middle;
+        [below, above]
+    }
+}
+
+impl PartialEq for Cell {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Cell {}
+
+impl PartialOrd for Cell {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Cell {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        self.bound.total_cmp(&other.bound)
+    }
+}

@@ -1,0 +1,385 @@
+//! Graphs: what a user's field or pattern computes, as data.
+//!
+//! The language runs the body once with a symbolic point; every operation on it becomes an entry here. Equal entries
+//! are shared, constants are folded, and an `if` on the point becomes a select. Evaluation is a walk over a list.
+
+use super::Node;
+use crate::catalogue::Function;
+use crate::num::{Number, Vec3};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A value inside a [`GraphBuilder`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Id(u32);
+
+/// One operation; operands come before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Op {
+    /// A constant, by its bits.
+    Constant(u64),
+    /// Component x, y or z of the point.
+    Coordinate(u8),
+    Negate(Id),
+    Add(Id, Id),
+    Subtract(Id, Id),
+    Multiply(Id, Id),
+    Divide(Id, Id),
+    Square(Id),
+    /// A function of up to three operands; unused ones repeat the first.
+    Call(Function, [Id; 3]),
+    /// The third where the first is below the second, else the fourth.
+    Select([Id; 4]),
+    /// The field of a shape, by number, at a point.
+    Shape(u32, [Id; 3]),
+}
+
+impl Op {
+    fn operands(&self) -> ([Id; 4], usize) {
+        let pad = |ids: &[Id]| {
+            let first = ids.first().copied().unwrap_or(Id(0));
+            (
+                std::array::from_fn(|i| ids.get(i).copied().unwrap_or(first)),
+                ids.len(),
+            )
+        };
+        match self {
+            Self::Constant(_) | Self::Coordinate(_) => pad(&[]),
+            Self::Negate(a) | Self::Square(a) => pad(&[*a]),
+            Self::Add(a, b) | Self::Subtract(a, b) | Self::Multiply(a, b) | Self::Divide(a, b) => {
+                pad(&[*a, *b])
+            }
+            Self::Call(_, ids) | Self::Shape(_, ids) => pad(ids),
+            Self::Select(ids) => pad(ids),
+        }
+    }
+
+    fn with_operands(self, rename: impl Fn(Id) -> Id) -> Self {
+        match self {
+            Self::Constant(_) | Self::Coordinate(_) => self,
+            Self::Negate(a) => Self::Negate(rename(a)),
+            Self::Square(a) => Self::Square(rename(a)),
+            Self::Add(a, b) => Self::Add(rename(a), rename(b)),
+            Self::Subtract(a, b) => Self::Subtract(rename(a), rename(b)),
+            Self::Multiply(a, b) => Self::Multiply(rename(a), rename(b)),
+            Self::Divide(a, b) => Self::Divide(rename(a), rename(b)),
+            Self::Call(f, ids) => Self::Call(f, ids.map(rename)),
+            Self::Shape(i, ids) => Self::Shape(i, ids.map(rename)),
+            Self::Select(ids) => Self::Select(ids.map(rename)),
+        }
+    }
+}
+
+/// Collects the operations of one body.
+#[derive(Debug, Default)]
+pub struct GraphBuilder {
+    ops: Vec<Op>,
+    known: HashMap<Op, Id>,
+    shapes: Vec<Arc<Node>>,
+}
+
+impl GraphBuilder {
+    /// An empty builder.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// How many different operations there are so far.
+    pub fn len(&self) -> usize {
+        self.ops.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.ops.is_empty()
+    }
+
+    /// A constant.
+    pub fn constant(&mut self, x: f64) -> Id {
+        self.push(Op::Constant(x.to_bits()))
+    }
+
+    /// The three components of the symbolic point.
+    pub fn point(&mut self) -> [Id; 3] {
+        [0, 1, 2].map(|axis| self.push(Op::Coordinate(axis)))
+    }
+
+    /// The value of `id`, if it is a constant.
+    pub fn known(&self, id: Id) -> Option<f64> {
+        match self.ops[id.0 as usize] {
+            Op::Constant(bits) => Some(f64::from_bits(bits)),
+            _ => None,
+        }
+    }
+
+    /// -a
+    pub fn negate(&mut self, a: Id) -> Id {
+        self.push(Op::Negate(a))
+    }
+
+    /// a + b
+    pub fn add(&mut self, a: Id, b: Id) -> Id {
+        match (self.known(a), self.known(b)) {
+            (Some(0.0), _) => b,
+            (_, Some(0.0)) => a,
+            _ => self.push(Op::Add(a, b)),
+        }
+    }
+
+    /// a - b
+    pub fn subtract(&mut self, a: Id, b: Id) -> Id {
+        if self.known(b) == Some(0.0) {
+            return a;
+        }
+        self.push(Op::Subtract(a, b))
+    }
+
+    /// a * b
+    pub fn multiply(&mut self, a: Id, b: Id) -> Id {
+        match (self.known(a), self.known(b)) {
+            (Some(1.0), _) => b,
+            (_, Some(1.0)) => a,
+            _ if a == b => self.push(Op::Square(a)),
+            _ => self.push(Op::Multiply(a, b)),
+        }
+    }
+
+    /// a / b
+    pub fn divide(&mut self, a: Id, b: Id) -> Id {
+        if self.known(b) == Some(1.0) {
+            return a;
+        }
+        self.push(Op::Divide(a, b))
+    }
+
+    /// The function at as many arguments as it names.
+    ///
+    /// # Panics
+    /// If there are none, or more than three.
+    pub fn call(&mut self, function: Function, arguments: &[Id]) -> Id {
+        let ids = std::array::from_fn(|i| arguments.get(i).copied().unwrap_or(arguments[0]));
+        self.push(Op::Call(function, ids))
+    }
+
+    /// `x` where `a < b`, else `y`.
+    pub fn select_lt(&mut self, a: Id, b: Id, x: Id, y: Id) -> Id {
+        if x == y {
+            return x;
+        }
+        self.push(Op::Select([a, b, x, y]))
+    }
+
+    /// The field of `shape` at the point with these components.
+    pub fn shape(&mut self, shape: &Arc<Node>, p: [Id; 3]) -> Id {
+        let known = self.shapes.iter().position(|s| Arc::ptr_eq(s, shape));
+        let index = known.unwrap_or_else(|| {
+            self.shapes.push(shape.clone());
+            self.shapes.len() - 1
+        });
+        self.push(Op::Shape(index as u32, p))
+    }
+
+    /// The graph of `outputs`, without what they do not need.
+    pub fn finish(&self, outputs: &[Id]) -> Graph {
+        let mut is_needed = vec![false; self.ops.len()];
+        for id in outputs {
+            is_needed[id.0 as usize] = true;
+        }
+        for i in (0..self.ops.len()).rev() {
+            if is_needed[i] {
+                let (ids, n) = self.ops[i].operands();
+                ids[..n]
+                    .iter()
+                    .for_each(|id| is_needed[id.0 as usize] = true);
+            }
+        }
+        let mut place = vec![Id(0); self.ops.len()];
+        let mut ops = Vec::new();
+        for (i, op) in self.ops.iter().enumerate().filter(|(i, _)| is_needed[*i]) {
+            place[i] = Id(ops.len() as u32);
+            ops.push(op.with_operands(|id| place[id.0 as usize]));
+        }
+        let outputs: Vec<Id> = outputs.iter().map(|id| place[id.0 as usize]).collect();
+        let (steps, registers, outputs) = allocate(&ops, &outputs);
+        Graph {
+            steps,
+            registers,
+            outputs,
+            shapes: self.shapes.clone(),
+        }
+    }
+
+    /// The id of `op`: a constant where all operands are, an equal one that is there already, or a new one.
+    fn push(&mut self, op: Op) -> Id {
+        let op = self.folded(op).unwrap_or(op);
+        if let Some(id) = self.known.get(&op) {
+            return *id;
+        }
+        let id = Id(self.ops.len() as u32);
+        self.ops.push(op);
+        self.known.insert(op, id);
+        id
+    }
+
+    fn folded(&self, op: Op) -> Option<Op> {
+        if matches!(op, Op::Constant(_) | Op::Coordinate(_) | Op::Shape(..)) {
+            return None;
+        }
+        let (ids, n) = op.operands();
+        let mut registers = [0.0; 4];
+        for (register, id) in registers.iter_mut().zip(&ids[..n]) {
+            *register = self.known(*id)?;
+        }
+        let mut next = 0;
+        let numbered = std::cell::RefCell::new(&mut next);
+        let local = op.with_operands(|_| {
+            let mut next = numbered.borrow_mut();
+            **next += 1;
+            Id(**next - 1)
+        });
+        let nowhere = Vec3::splat([0.0; 3]);
+        let value = step(&local, &nowhere, &registers, &|_, _: &Vec3<f64>| f64::NAN);
+        Some(Op::Constant(value.to_bits()))
+    }
+}
+
+/// A step of the finished list: an operation on registers, and the register that takes its value.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    op: Op,
+    into: u32,
+}
+
+/// Gives every operation a register, used again once nothing needs its value: steps, their number, the outputs.
+fn allocate(ops: &[Op], outputs: &[Id]) -> (Vec<Step>, usize, Vec<u32>) {
+    let mut last_use: Vec<usize> = (0..ops.len()).collect();
+    for (i, op) in ops.iter().enumerate() {
+        let (ids, n) = op.operands();
+        ids[..n].iter().for_each(|id| last_use[id.0 as usize] = i);
+    }
+    outputs
+        .iter()
+        .for_each(|id| last_use[id.0 as usize] = usize::MAX);
+    let mut free: Vec<u32> = Vec::new();
+    let mut count = 0;
+    let mut register = vec![0u32; ops.len()];
+    let mut steps = Vec::with_capacity(ops.len());
+    for (i, op) in ops.iter().enumerate() {
+        let (ids, n) = op.operands();
+        let renamed = op.with_operands(|id| Id(register[id.0 as usize]));
+        let mut ended: Vec<u32> = ids[..n]
+            .iter()
+            .filter(|id| last_use[id.0 as usize] == i)
+            .map(|id| register[id.0 as usize])
+            .collect();
+        ended.sort_unstable();
+        ended.dedup();
+        free.extend(ended);
+        register[i] = free.pop().unwrap_or_else(|| {
+            count += 1;
+            count - 1
+        });
+        steps.push(Step {
+            op: renamed,
+            into: register[i],
+        });
+    }
+    (
+        steps,
+        count as usize,
+        outputs.iter().map(|id| register[id.0 as usize]).collect(),
+    )
+}
+
+/// The value of one operation on registers.
+#[inline(always)]
+fn step<N: Number>(
+    op: &Op,
+    p: &Vec3<N>,
+    registers: &[N],
+    shape: &impl Fn(usize, &Vec3<N>) -> N,
+) -> N {
+    let r = |id: Id| registers[id.0 as usize];
+    match *op {
+        Op::Constant(bits) => N::splat(f64::from_bits(bits)),
+        Op::Coordinate(axis) => p.component(axis as usize),
+        Op::Negate(a) => -r(a),
+        Op::Add(a, b) => r(a) + r(b),
+        Op::Subtract(a, b) => r(a) - r(b),
+        Op::Multiply(a, b) => r(a) * r(b),
+        Op::Divide(a, b) => r(a) / r(b),
+        Op::Square(a) => r(a).square(),
+        Op::Call(function, ids) => function.apply(&ids.map(r)),
+        Op::Select([a, b, x, y]) => N::select_lt(r(a), r(b), r(x), r(y)),
+        Op::Shape(index, [x, y, z]) => shape(index as usize, &Vec3::new(r(x), r(y), r(z))),
+    }
+}
+
+/// A finished list of operations on a point, with one output for a number and three for a colour.
+#[derive(Clone, Debug)]
+pub struct Graph {
+    steps: Vec<Step>,
+    registers: usize,
+    outputs: Vec<u32>,
+    shapes: Vec<Arc<Node>>,
+}
+
+impl Graph {
+    /// How many registers [`Graph::run`] needs.
+    pub fn registers(&self) -> usize {
+        self.registers
+    }
+
+    /// The shapes whose fields the graph uses, by number.
+    pub fn shapes(&self) -> &[Arc<Node>] {
+        &self.shapes
+    }
+
+    /// How many operations there are.
+    pub fn len(&self) -> usize {
+        self.steps.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.steps.is_empty()
+    }
+
+    /// Computes all outputs at `p`, in `registers` (at least [`Graph::registers`]); `shape` gives the field of a shape
+    /// by number.
+    #[inline(always)]
+    pub fn run<N: Number>(
+        &self,
+        p: &Vec3<N>,
+        registers: &mut [N],
+        shape: &impl Fn(usize, &Vec3<N>) -> N,
+    ) {
+        for s in &self.steps {
+            registers[s.into as usize] = step(&s.op, p, registers, shape);
+        }
+    }
+
+    /// Output number `i` after [`Graph::run`].
+    #[inline(always)]
+    pub fn output<N: Number>(&self, registers: &[N], i: usize) -> N {
+        registers[self.outputs[i] as usize]
+    }
+
+    /// The first output at `p`, by walking shapes directly.
+    pub fn value<N: Number>(&self, p: &Vec3<N>) -> N {
+        let mut registers = vec![N::splat(0.0); self.registers];
+        self.run(p, &mut registers, &|i, q| self.shapes[i].evaluate(q));
+        self.output(&registers, 0)
+    }
+
+    /// All outputs at a point.
+    pub fn values(&self, p: [f64; 3]) -> Vec<f64> {
+        let mut registers = vec![0.0; self.registers];
+        self.run(&Vec3::splat(p), &mut registers, &|i, q| {
+            self.shapes[i].evaluate(q)
+        });
+        (0..self.outputs.len())
+            .map(|i| self.output(&registers, i))
+            .collect()
+    }
+}

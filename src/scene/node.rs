@@ -1,0 +1,392 @@
+//! The tree of shapes. A node cannot be made without its certificates.
+
+use super::derive::lipschitz_of_graph;
+use super::{Fault, Graph, Material};
+use crate::catalogue::{
+    AnyModifier, AnyPrimitive, Bounds, Class, Combination, Modifier, Operation, Primitive, Traits,
+    with_blend, with_modifier, with_primitive,
+};
+use crate::num::{Number, Vec3};
+use std::sync::Arc;
+
+/// What a node is.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// A leaf of the catalogue.
+    Primitive(AnyPrimitive),
+    /// A user's field.
+    Field(Arc<FieldShape>),
+    /// Several shapes as one.
+    Combination(Combination, Vec<Arc<Node>>),
+    /// One shape, changed.
+    Modifier(AnyModifier, Arc<Node>),
+}
+
+/// A user's field: its graph, and the Lipschitz constant that its author claims for it, if any.
+#[derive(Clone, Debug)]
+pub struct FieldShape {
+    /// The name in the script.
+    pub name: String,
+    /// The computation, with one output.
+    pub graph: Graph,
+    /// The claimed constant.
+    pub claimed: Option<f64>,
+}
+
+/// Where in the script a node was made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The file as the user named it.
+    pub file: Arc<str>,
+    /// The line, from 1.
+    pub line: u32,
+}
+
+/// A shape with its certificates.
+#[derive(Clone, Debug)]
+pub struct Node {
+    shape: Shape,
+    traits: Traits,
+    bounds: Bounds,
+    lipschitz: f64,
+    everywhere: f64,
+    is_regional: bool,
+    depth: u32,
+    paint: Option<Arc<Material>>,
+    name: Option<Arc<str>>,
+    place: Option<Place>,
+}
+
+impl Node {
+    /// How many nodes may lie on the way from the root to a leaf.
+    pub const MAX_DEPTH: u32 = 512;
+
+    /// A leaf of the catalogue.
+    ///
+    /// # Errors
+    /// What [`Primitive::check`] says.
+    pub fn primitive(primitive: AnyPrimitive) -> Result<Arc<Self>, Fault> {
+        with_primitive!(&primitive, p => p.check())
+            .map_err(|(parameter, message)| Fault::of(parameter, message))?;
+        let (traits, everywhere) = with_primitive!(&primitive, p => (p.traits(), p.lipschitz()));
+        Self::certified(Shape::Primitive(primitive), traits, everywhere, false)
+    }
+
+    /// A user's field; its constant is derived over the bounds of what it ends up in, unless one is claimed.
+    ///
+    /// # Errors
+    /// None today; the signature is that of all constructors.
+    pub fn field(field: FieldShape) -> Result<Arc<Self>, Fault> {
+        let everywhere = field
+            .claimed
+            .unwrap_or_else(|| lipschitz_of_graph(&field.graph, Bounds::EVERYWHERE));
+        let traits = Traits {
+            class: Class::Lipschitz,
+            ..Traits::EXACT
+        };
+        let is_regional = field.claimed.is_none();
+        Self::certified(
+            Shape::Field(Arc::new(field)),
+            traits,
+            everywhere,
+            is_regional,
+        )
+    }
+
+    /// Several shapes as one. A hard union of hard unions becomes one with all their children.
+    ///
+    /// # Errors
+    /// If there is no child, or if profiles and shapes in space are mixed, or the tree gets too deep.
+    pub fn combination(
+        combination: Combination,
+        children: Vec<Arc<Self>>,
+    ) -> Result<Arc<Self>, Fault> {
+        if children.is_empty() {
+            let message = format!(
+                "`{}` needs at least one shape",
+                combination.operation.name()
+            );
+            return Err(Fault::new(message, ""));
+        }
+        if children
+            .iter()
+            .any(|c| c.traits.is_planar != children[0].traits.is_planar)
+        {
+            return Err(Fault::new(
+                "profiles and shapes in space cannot be combined",
+                "give the profile thickness with `.extrude(height)` or turn it with `.revolve()`",
+            ));
+        }
+        let children =
+            if combination.operation != Operation::Difference && combination.blend.is_hard() {
+                flattened(&combination, children)
+            } else {
+                children
+            };
+        if let [only] = &children[..] {
+            return Ok(only.clone());
+        }
+        let traits = combination.traits(&children.iter().map(|c| c.traits).collect::<Vec<_>>());
+        let everywhere = children.iter().map(|c| c.everywhere).fold(0.0, f64::max);
+        let is_regional = children.iter().any(|c| c.is_regional);
+        Self::certified(
+            Shape::Combination(combination, children),
+            traits,
+            everywhere,
+            is_regional,
+        )
+    }
+
+    /// One shape, changed.
+    ///
+    /// # Errors
+    /// What [`Modifier::check`] and [`Modifier::fit`] say, or that the tree gets too deep.
+    pub fn modifier(mut modifier: AnyModifier, child: Arc<Self>) -> Result<Arc<Self>, Fault> {
+        with_modifier!(&modifier, m => m.check())
+            .map_err(|(parameter, message)| Fault::of(parameter, message))?;
+        with_modifier!(&mut modifier, m => m.fit(&child.traits, &|level| child.sublevel(level)))
+            .map_err(|(message, hint)| Fault::new(message, hint))?;
+        let traits = with_modifier!(&modifier, m => m.traits(&child.traits));
+        let everywhere =
+            with_modifier!(&modifier, m => m.lipschitz(child.everywhere, Bounds::EVERYWHERE));
+        let own = matches!(modifier, AnyModifier::Twist(_));
+        let is_regional = own || child.is_regional;
+        Self::certified(
+            Shape::Modifier(modifier, child),
+            traits,
+            everywhere,
+            is_regional,
+        )
+    }
+
+    fn certified(
+        shape: Shape,
+        traits: Traits,
+        everywhere: f64,
+        is_regional: bool,
+    ) -> Result<Arc<Self>, Fault> {
+        let depth = 1 + match &shape {
+            Shape::Primitive(_) => 0,
+            Shape::Field(field) => field
+                .graph
+                .shapes()
+                .iter()
+                .map(|n| n.depth)
+                .max()
+                .unwrap_or(0),
+            Shape::Combination(_, children) => children.iter().map(|n| n.depth).max().unwrap_or(0),
+            Shape::Modifier(_, child) => child.depth,
+        };
+        if depth > Self::MAX_DEPTH {
+            let limit = Self::MAX_DEPTH;
+            return Err(Fault::new(
+                format!("the shape is nested deeper than {limit} operations (limit MAX_DEPTH)"),
+                "unite many shapes at once, as in `union(list)`, instead of one after another",
+            ));
+        }
+        let mut node = Self {
+            shape,
+            traits,
+            bounds: Bounds::EVERYWHERE,
+            lipschitz: everywhere,
+            everywhere,
+            is_regional,
+            depth,
+            paint: None,
+            name: None,
+            place: None,
+        };
+        node.bounds = node.sublevel(0.0);
+        if is_regional {
+            node.lipschitz = node.lipschitz_over(node.bounds);
+            let is_claim_free = node.lipschitz <= 1.0;
+            if !is_claim_free {
+                node.traits.class = Class::Lipschitz;
+            }
+        }
+        Ok(Arc::new(node))
+    }
+
+    /// The same shape with this material where nothing is painted deeper down.
+    pub fn painted(&self, material: Arc<Material>) -> Arc<Self> {
+        let paint = self.paint.clone().or(Some(material));
+        Arc::new(Self {
+            paint,
+            ..self.clone()
+        })
+    }
+
+    /// The same shape with the name and place of its statement in the script, unless it has one already.
+    pub fn labelled(&self, name: Option<Arc<str>>, place: Option<Place>) -> Arc<Self> {
+        let (name, place) = (self.name.clone().or(name), self.place.clone().or(place));
+        Arc::new(Self {
+            name,
+            place,
+            ..self.clone()
+        })
+    }
+
+    /// What the node is.
+    pub fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// What is known about its field.
+    pub fn traits(&self) -> &Traits {
+        &self.traits
+    }
+
+    /// What its value says about distance.
+    pub fn class(&self) -> Class {
+        self.traits.class
+    }
+
+    /// A box that holds the solid.
+    pub fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+
+    /// A Lipschitz constant of the field on [`Node::bounds`]; infinite where none is known.
+    pub fn lipschitz(&self) -> f64 {
+        self.lipschitz
+    }
+
+    /// A Lipschitz constant of the field on all of space; infinite where none is known.
+    pub fn lipschitz_everywhere(&self) -> f64 {
+        self.everywhere
+    }
+
+    /// The material of what is not painted deeper down.
+    pub fn paint(&self) -> Option<&Arc<Material>> {
+        self.paint.as_ref()
+    }
+
+    /// The name in the script.
+    pub fn name(&self) -> Option<&str> {
+        self.name.as_deref()
+    }
+
+    /// Where in the script the node was made.
+    pub fn place(&self) -> Option<&Place> {
+        self.place.as_ref()
+    }
+
+    /// The word for what the node is.
+    pub fn kind(&self) -> &str {
+        use crate::catalogue::Declared;
+        fn word<D: Declared>(_: &D) -> &'static str {
+            D::DECLARATION.name
+        }
+        match &self.shape {
+            Shape::Primitive(primitive) => with_primitive!(primitive, p => word(p)),
+            Shape::Field(field) => &field.name,
+            Shape::Combination(combination, _) => combination.operation.name(),
+            Shape::Modifier(modifier, _) => with_modifier!(modifier, m => word(m)),
+        }
+    }
+
+    /// The rule behind its Lipschitz constant, in words with its source.
+    pub fn rule(&self) -> &'static str {
+        use crate::catalogue::Declared;
+        fn source<D: Declared>(_: &D) -> &'static str {
+            D::DECLARATION.source
+        }
+        fn of_modifier<M: Modifier>(_: &M) -> &'static str {
+            M::RULE
+        }
+        match &self.shape {
+            Shape::Primitive(primitive) => with_primitive!(primitive, p => source(p)),
+            Shape::Field(field) if field.claimed.is_some() => {
+                "claimed in the script, checked by samples"
+            }
+            Shape::Field(_) => {
+                "the largest gradient, by interval automatic differentiation over the bounds"
+            }
+            Shape::Combination(..) => Combination::RULE,
+            Shape::Modifier(modifier, _) => with_modifier!(modifier, m => of_modifier(m)),
+        }
+    }
+
+    /// The node's children.
+    pub fn children(&self) -> &[Arc<Self>] {
+        match &self.shape {
+            Shape::Primitive(_) => &[],
+            Shape::Field(field) => field.graph.shapes(),
+            Shape::Combination(_, children) => children,
+            Shape::Modifier(_, child) => std::slice::from_ref(child),
+        }
+    }
+
+    /// A box that holds every point where the field is at most `level >= 0`.
+    pub fn sublevel(&self, level: f64) -> Bounds {
+        match &self.shape {
+            Shape::Primitive(primitive) => with_primitive!(primitive, p => p.sublevel(level)),
+            Shape::Field(_) => Bounds::EVERYWHERE,
+            Shape::Combination(combination, children) => {
+                combination.sublevel(children.len(), level, &|i, l| children[i].sublevel(l))
+            }
+            Shape::Modifier(modifier, child) => {
+                with_modifier!(modifier, m => m.sublevel(level, &|l| child.sublevel(l)))
+            }
+        }
+    }
+
+    /// A Lipschitz constant of the field on `region`; infinite where none is known.
+    pub fn lipschitz_over(&self, region: Bounds) -> f64 {
+        if !self.is_regional {
+            return self.everywhere;
+        }
+        match &self.shape {
+            Shape::Primitive(_) => self.everywhere,
+            Shape::Field(field) => match field.claimed {
+                Some(claimed) => claimed,
+                None => lipschitz_of_graph(&field.graph, region),
+            },
+            Shape::Combination(_, children) => children
+                .iter()
+                .map(|c| c.lipschitz_over(region))
+                .fold(0.0, f64::max),
+            Shape::Modifier(modifier, child) => {
+                let inner = with_modifier!(modifier, m => m.domain(region));
+                let slope = child.lipschitz_over(inner);
+                with_modifier!(modifier, m => m.lipschitz(slope, region))
+            }
+        }
+    }
+
+    /// The field at `p`, by walking the tree: slow, and the measure of what is compiled.
+    pub fn evaluate<N: Number>(&self, p: &Vec3<N>) -> N {
+        match &self.shape {
+            Shape::Primitive(primitive) => with_primitive!(primitive, leaf => leaf.distance(p)),
+            Shape::Field(field) => field.graph.value(p),
+            Shape::Combination(combination, children) => {
+                let mut values = children.iter().map(|c| c.evaluate(p));
+                let first = values.next().expect("a combination has children");
+                with_blend!(&combination.blend, b => values.fold(first, |x, y| combination.operation.join(b, x, y)))
+            }
+            Shape::Modifier(modifier, child) => {
+                with_modifier!(modifier, m => m.apply(p, |q| child.evaluate(q)))
+            }
+        }
+    }
+}
+
+/// The children with those of equal hard combinations in their place, where no paint is lost by it.
+fn flattened(combination: &Combination, children: Vec<Arc<Node>>) -> Vec<Arc<Node>> {
+    let is_same = |c: &Node| {
+        matches!(&c.shape, Shape::Combination(inner, _) if inner == combination)
+            && c.paint.is_none()
+            && c.name.is_none()
+    };
+    if !children.iter().any(|c| is_same(c)) {
+        return children;
+    }
+    let mut flat = Vec::with_capacity(children.len());
+    for child in children {
+        match &child.shape {
+            Shape::Combination(_, inner) if is_same(&child) => flat.extend(inner.iter().cloned()),
+            _ => flat.push(child),
+        }
+    }
+    flat
+}

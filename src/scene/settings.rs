@@ -1,0 +1,64 @@
+//! How the picture is made.
+
+/// Which way rays find surfaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Method {
+    /// Spheres, planes and triangles analytically, convex shapes by their slope, the rest by certified sphere tracing.
+    Auto,
+    /// Hart's sphere tracing everywhere: t += |f| / lambda until |f| < epsilon or t > D.
+    Sphere,
+}
+
+impl Method {
+    /// All methods, by their names in scripts.
+    pub const ALL: [(&'static str, Self); 2] = [("auto", Self::Auto), ("sphere", Self::Sphere)];
+
+    /// The method that scripts call `name`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL
+            .iter()
+            .find(|(word, _)| *word == name)
+            .map(|(_, method)| *method)
+    }
+
+    /// The name in scripts.
+    pub fn name(self) -> &'static str {
+        Self::ALL
+            .iter()
+            .find(|(_, method)| *method == self)
+            .map_or("", |(word, _)| word)
+    }
+}
+
+/// How the picture is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Width and height, in pixels.
+    pub size: [u32; 2],
+    /// Rays per pixel.
+    pub samples: u32,
+    /// How many times a ray may be reflected or refracted; what is deeper is black.
+    pub depth: u32,
+    /// How far from the surface a hit may be, in footprints of a pixel at its distance.
+    pub tolerance: f64,
+    /// How many steps a ray may take through one shape before it is given up as unknown.
+    pub max_steps: u32,
+    /// Which way rays find surfaces.
+    pub method: Method,
+    /// What random choices start from.
+    pub seed: u64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            size: [640, 360],
+            samples: 1,
+            depth: 8,
+            tolerance: 0.1,
+            max_steps: 1024,
+            method: Method::Auto,
+            seed: 0,
+        }
+    }
+}

@@ -9,6 +9,7 @@ mod light;
 mod material;
 mod node;
 mod settings;
+mod tracer;
 
 use std::sync::Arc;
 
@@ -21,6 +22,7 @@ pub use light::{Falloff, Light, Source};
 pub use material::{Material, Model, Shadow, Term};
 pub use node::{FieldShape, Node, Place, Shape};
 pub use settings::{Method, Settings};
+pub use tracer::{TraceRecord, Tracer};
 
 /// Everything that a picture shows.
 #[derive(Clone, Debug, Default)]

@@ -2,7 +2,8 @@
 //!
 //! An operation gives an interval that holds the exact result, and the `f64` result, for all finite operands within its
 //! arguments. Infinite ends mean unbounded. Where some operands have no result (the root of a negative number, zero by
-//! zero) the answer is [`Interval::ENTIRE`], which also stands for "perhaps not a number".
+//! zero) the answer is [`Interval::ENTIRE`], which also stands for "perhaps not a number"; the operations
+//! after it speak for numbers only. A divisor that ends at 0 counts as the limit from its own side: 1 by [0, 1] is [1, inf].
 
 use super::Number;
 use super::number::whole_power;
@@ -468,6 +469,14 @@ impl Number for Interval {
         self.monotone(Number::acos, COMPOSED_STEPS, 0.0, PI.next_up())
     }
 
+    fn cathetus(self) -> Self {
+        if self.magnitude() > 1.0 {
+            return Self::ENTIRE;
+        }
+        self.abs()
+            .monotone(Number::cathetus, KERNEL_STEPS, 0.0, 1.0)
+    }
+
     fn fract(self) -> Self {
         let floor = self.floor();
         let fract = if floor.lo == floor.hi {
@@ -504,4 +513,235 @@ impl Number for Interval {
 /// Whether points of the box lie on both sides of the cut of `atan2`, the negative x axis.
 fn crosses_cut(y: Interval, x: Interval) -> bool {
     x.lo < 0.0 && y.lo < 0.0 && y.hi >= 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{Samples, Tree, binary, unary};
+    use super::*;
+
+    const SEED: u64 = 0x17e5;
+    const BOXES: usize = 20_000;
+
+    /// An interval of any size from a point upwards, about the origin or away from it.
+    fn random_interval(samples: &mut Samples) -> Interval {
+        let center = if samples.below(4) == 0 {
+            0.0
+        } else {
+            samples.scaled(-6.0, 6.0)
+        };
+        let radius = match samples.below(4) {
+            0 => 0.0,
+            1 => samples.scaled(-7.0, 1.0) * center,
+            _ => samples.scaled(-6.0, 2.0),
+        };
+        Interval::new(center - radius, center + radius)
+    }
+
+    /// An end, zero or one where possible, else any point.
+    fn point_of(x: Interval, samples: &mut Samples) -> f64 {
+        let special = [x.lo, x.hi, 0.0, 1.0, -1.0, x.mid()][samples.below(6)];
+        if samples.bits() & 1 == 0 && x.contains(special) {
+            special
+        } else {
+            samples.uniform(x.lo, x.hi).clamp(x.lo, x.hi)
+        }
+    }
+
+    #[test]
+    fn functions_of_one_interval_contain_their_values() {
+        let mut samples = Samples::new(SEED);
+        for ((name, range), (_, value)) in unary::<Interval>().into_iter().zip(unary::<f64>()) {
+            for _ in 0..BOXES {
+                let x = random_interval(&mut samples);
+                for _ in 0..5 {
+                    let p = point_of(x, &mut samples);
+                    let (range, value) = (range(x), value(p));
+                    assert!(
+                        range.contains(value),
+                        "{name} of {p:e} in {x:?}: {value:e} in {range:?}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn functions_of_two_intervals_contain_their_values() {
+        let mut samples = Samples::new(SEED);
+        for ((name, range), (_, value)) in binary::<Interval>().into_iter().zip(binary::<f64>()) {
+            for _ in 0..BOXES {
+                let [x, y] = [0; 2].map(|_| random_interval(&mut samples));
+                for _ in 0..5 {
+                    let [p, q] = [x, y].map(|x| point_of(x, &mut samples));
+                    let (range, value) = (range(x, y), value(p, q));
+                    assert!(
+                        range.contains(value),
+                        "{name} of {p:e}, {q:e} in {x:?}, {y:?}: {value:e} in {range:?}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn expressions_contain_their_values() {
+        let mut samples = Samples::new(SEED);
+        let (mut bounded, mut checked) = (0, 0);
+        for _ in 0..BOXES {
+            let tree = Tree::random(&mut samples, 4);
+            let at = [0; 3].map(|_| random_interval(&mut samples));
+            let range = tree.value(at);
+            bounded += usize::from(range != Interval::ENTIRE);
+            for _ in 0..5 {
+                let p = at.map(|x| point_of(x, &mut samples));
+                let value: f64 = tree.value(p);
+                let is_defined = tree.is_defined(p);
+                checked += usize::from(is_defined);
+                let holds = range.contains(value) || !is_defined;
+                assert!(holds, "{tree:?} at {p:?} in {at:?}: {value:e} in {range:?}");
+            }
+        }
+        assert!(bounded > BOXES / 3, "only {bounded} ranges say anything");
+        assert!(checked > BOXES, "only {checked} values were defined");
+    }
+
+    #[test]
+    fn elementary_functions_contain_the_values_of_libm() {
+        type Pair = (fn(Interval) -> Interval, fn(f64) -> f64);
+        let pairs: [Pair; 7] = [
+            (Number::sin, libm::sin),
+            (Number::cos, libm::cos),
+            (Number::tan, libm::tan),
+            (Number::exp, libm::exp),
+            (Number::ln, libm::log),
+            (Number::asin, libm::asin),
+            (Number::acos, libm::acos),
+        ];
+        let mut samples = Samples::new(SEED);
+        for _ in 0..BOXES {
+            let x = random_interval(&mut samples);
+            let p = point_of(x, &mut samples);
+            for (range, value) in pairs {
+                let (range, value) = (range(x), value(p));
+                assert!(
+                    range.contains(value),
+                    "{p:e} in {x:?}: {value:e} in {range:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn ranges_are_tight() {
+        let interval = Interval::new;
+        let cases = [
+            (interval(-1.0, 2.0).square(), 0.0, 4.0),
+            (interval(-1.0, 2.0).powi(3), -1.0, 8.0),
+            (interval(-1.0, 2.0).powi(4), 0.0, 16.0),
+            (interval(0.0, 4.0).sin(), -0.756_802_495_307_928_3, 1.0),
+            (interval(2.0, 4.0).cos(), -1.0, -0.416_146_836_547_142_4),
+            (
+                Number::hypot(interval(3.0, 6.0), interval(-4.0, 8.0)),
+                3.0,
+                10.0,
+            ),
+            (
+                interval(1.0, 2.0).atan2(interval(-1.0, 1.0)),
+                PI / 4.0,
+                3.0 * PI / 4.0,
+            ),
+            (interval(0.0, 2.0).pow(Interval::point(2.0)), 0.0, 4.0),
+            (interval(4.0, 9.0).pow(Interval::point(0.5)), 2.0, 3.0),
+            (Interval::ONE / interval(0.0, 2.0), 0.5, f64::INFINITY),
+            (
+                interval(1.0, 2.0).direction_cosine(interval(4.0, 8.0)),
+                0.125,
+                0.5,
+            ),
+            (
+                interval(-1.0, 5.0).direction_cosine(interval(0.0, 8.0)),
+                -1.0,
+                1.0,
+            ),
+            (interval(1.25, 1.5).fract(), 0.25, 0.5),
+            (interval(-0.5, 0.5).asin(), -PI / 6.0, PI / 6.0),
+            (interval(-1.0, 0.5).cathetus(), 0.0, 1.0),
+        ];
+        for (i, (range, lo, hi)) in cases.into_iter().enumerate() {
+            let slack = 1e-14;
+            assert!(range.lo <= lo && range.hi >= hi, "case {i}: {range:?}");
+            assert!(
+                range.lo >= lo - slack && (range.hi <= hi + slack),
+                "case {i}: {range:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn sums_are_rounded_only_where_they_must_be() {
+        let point = Interval::point;
+        assert_eq!(point(1.0) + point(2.0), point(3.0));
+        assert_eq!(point(0.0) + point(0.0), point(0.0));
+        let third = point(0.1) + point(0.2);
+        assert_eq!(third.lo.next_up(), third.hi);
+        // 0.1 + 0.2 in exact arithmetic on the two doubles: 0.3000000000000000166533453694.
+        assert!(third.lo == 0.3 && third.hi == 0.30000000000000004);
+    }
+
+    #[test]
+    fn infinite_ends_never_meet_zero() {
+        let zero = Interval::point(0.0);
+        assert_eq!(zero * Interval::ENTIRE, zero);
+        assert_eq!(
+            Interval::new(0.0, 1.0) * Interval::new(1.0, f64::INFINITY),
+            Interval::new(0.0, f64::INFINITY)
+        );
+        let ratio = Interval::new(1.0, f64::INFINITY) / Interval::new(1.0, f64::INFINITY);
+        assert_eq!(ratio, Interval::new(0.0, f64::INFINITY));
+    }
+
+    #[test]
+    fn undefined_results_are_everything() {
+        let interval = Interval::new;
+        let undefined = [
+            interval(-1.0, 1.0).sqrt(),
+            interval(-1.0, 1.0).ln(),
+            interval(-1.0, 1.0) / interval(-1.0, 1.0),
+            interval(0.0, 0.0) / interval(0.0, 0.0),
+            interval(-2.0, 0.0).asin(),
+            interval(1.0, 2.0).tan(),
+            Interval::ENTIRE - Interval::ENTIRE,
+            interval(f64::NAN, 1.0),
+            interval(-1.0, 2.0).pow(Interval::point(0.5)),
+        ];
+        for (i, range) in undefined.into_iter().enumerate() {
+            assert_eq!(range, Interval::ENTIRE, "case {i}");
+        }
+    }
+
+    #[test]
+    fn selection_joins_what_it_cannot_decide() {
+        let interval = Interval::new;
+        let [a, b, x, y] =
+            [(0.0, 2.0), (1.0, 3.0), (5.0, 6.0), (8.0, 9.0)].map(|(lo, hi)| interval(lo, hi));
+        assert_eq!(Interval::select_lt(a, b, x, y), interval(5.0, 9.0));
+        assert_eq!(Interval::select_lt_slope(a, b, x, y), Interval::ENTIRE);
+        assert_eq!(Interval::select_lt(a, x, x, y), x);
+        assert_eq!(Interval::select_lt_slope(x, a, x, y), y);
+        // Equal is not less.
+        let one = Interval::point(1.0);
+        assert_eq!(Interval::select_lt(one, one, x, y), y);
+    }
+
+    #[test]
+    fn measures_of_an_interval() {
+        let x = Interval::new(2.0, -6.0);
+        assert_eq!((x.lo, x.hi, x.width(), x.mid()), (-6.0, 2.0, 8.0, -2.0));
+        assert_eq!((x.magnitude(), x.mignitude()), (6.0, 0.0));
+        assert_eq!(x.hull(Interval::point(3.0)), Interval::new(-6.0, 3.0));
+        assert!(x.contains(2.0) && !x.contains(2.5) && !x.contains(f64::NAN));
+        assert!(Interval::ENTIRE.contains(f64::NAN) && Interval::ENTIRE.mid() == 0.0);
+        assert_eq!(Interval::point(5e-324).mid(), 5e-324);
+    }
 }

@@ -366,4 +366,113 @@ mod tests {
             3.0,
         );
     }
+
+    #[test]
+    fn special_values_are_those_of_the_mathematics() {
+        let infinity = f64::INFINITY;
+        assert_eq!(
+            [exp(-infinity), exp(infinity), exp(0.0)],
+            [0.0, infinity, 1.0]
+        );
+        assert_eq!(
+            [exp(-746.0), exp(-745.0), exp(710.0)],
+            [0.0, 5e-324, infinity]
+        );
+        assert_eq!([ln(0.0), ln(infinity), ln(1.0)], [-infinity, infinity, 0.0]);
+        assert_eq!(
+            [ln(-0.0_f32), ln(f32::INFINITY)],
+            [f32::NEG_INFINITY, f32::INFINITY]
+        );
+        assert_eq!(sin(-0.0_f64).to_bits(), (-0.0_f64).to_bits());
+        assert_eq!(atan2(0.0, 0.0), 0.0);
+        assert_eq!([atan2(0.0, -0.0), atan2(-0.0, -0.0)], [0.0, 0.0]);
+        let nans = [
+            ln(-1.0),
+            sin(infinity),
+            cos(-infinity),
+            sin(f64::NAN),
+            exp(f64::NAN),
+            ln(f64::NAN),
+        ];
+        assert!(nans.iter().all(|x| x.is_nan()), "{nans:?}");
+        assert!(atan2(f32::NAN, 1.0).is_nan() && atan2(1.0, f32::NAN).is_nan());
+    }
+
+    #[test]
+    fn angles_are_exact_on_axes_and_at_infinity() {
+        use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+        let infinity = f64::INFINITY;
+        assert_eq!(
+            [atan2(0.0, 2.0), atan2(3.0, 0.0), atan2(-3.0, 0.0)],
+            [0.0, FRAC_PI_2, -FRAC_PI_2]
+        );
+        assert_eq!([atan2(0.0, -1.0), atan2(-0.0, -1.0)], [PI, PI]);
+        assert_eq!(
+            [atan2(infinity, infinity), atan2(-infinity, -infinity)],
+            [FRAC_PI_4, -3.0 * FRAC_PI_4]
+        );
+        assert_eq!([atan2(1e300, infinity), atan2(1e300, -infinity)], [0.0, PI]);
+        assert_eq!(
+            [atan2(infinity, 1e300), atan2(f64::MAX, f64::MAX)],
+            [FRAC_PI_2, FRAC_PI_4]
+        );
+    }
+
+    #[test]
+    fn floor_agrees_with_the_standard_library_to_the_bit() {
+        let mut samples = Samples::new(SEED);
+        let special = [
+            0.0,
+            0.5,
+            1.0,
+            0.999_999_94,
+            1.5,
+            8_388_607.5,
+            8_388_608.0,
+            1e30,
+            f32::INFINITY,
+            1e-45,
+        ];
+        let random = (0..COUNT).map(|_| f32::from_bits(samples.bits() as u32));
+        for x in special.into_iter().chain(special.map(|x| -x)).chain(random) {
+            let same = floor(x).to_bits() == x.floor().to_bits() || x.is_nan() && floor(x).is_nan();
+            assert!(same, "{x:e}: {:e}, seed {SEED:#x}", floor(x));
+            let y = f64::from(x) * (1.0 + f64::EPSILON);
+            assert!(
+                floor(y).to_bits() == y.floor().to_bits() || y.is_nan(),
+                "{y:e}"
+            );
+        }
+    }
+
+    #[test]
+    fn extremes_pass_over_nan_and_take_the_second_of_two_zeros() {
+        assert_eq!(
+            [
+                min(1.0, f64::NAN),
+                min(f64::NAN, 1.0),
+                max(f64::NAN, 1.0),
+                max(1.0, f64::NAN)
+            ],
+            [1.0; 4]
+        );
+        assert!(min(f32::NAN, f32::NAN).is_nan());
+        assert_eq!(
+            [min(1.0, 2.0), max(1.0, 2.0), min(2.0, 1.0), max(2.0, 1.0)],
+            [1.0, 2.0, 1.0, 2.0]
+        );
+        assert!(min(0.0, -0.0_f32).is_sign_negative() && max(0.0, -0.0_f32).is_sign_negative());
+        assert!(min(-0.0, 0.0_f32).is_sign_positive() && max(-0.0, 0.0_f32).is_sign_positive());
+    }
+
+    #[test]
+    fn sine_and_cosine_stay_within_one() {
+        let mut samples = Samples::new(SEED);
+        for _ in 0..COUNT {
+            let x = angle(&mut samples, 1e5);
+            assert!(sin(x).abs() <= 1.0 && cos(x).abs() <= 1.0, "{x:e}");
+            let x = x as f32;
+            assert!(sin(x).abs() <= 1.0 && cos(x).abs() <= 1.0, "{x:e}");
+        }
+    }
 }

@@ -261,3 +261,195 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
         -self.chain_over(-self.value.acos(), self.value.cathetus())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Interval;
+    use super::super::interval::tests::{point_of, random_interval};
+    use super::super::samples::{Samples, Tree, binary, unary};
+    use super::*;
+    use num_dual::{Dual64, DualNum};
+
+    const SEED: u64 = 0xd0a1;
+    const POINTS: usize = 2_000;
+
+    type Dual1 = Dual<f64, 1>;
+    type Dual3 = Dual<f64, 3>;
+    type Range3 = Dual<Interval, 3>;
+
+    /// The central difference of `f` at `x`; its error is `h^2 / 6` of the third derivative.
+    fn difference(f: impl Fn(f64) -> f64, x: f64) -> f64 {
+        let h = 1e-5;
+        (f(x + h) - f(x - h)) / (2.0 * h)
+    }
+
+    fn assert_close(got: f64, expected: f64, tolerance: f64, about: &str) {
+        let error = (got - expected).abs() / (1.0 + expected.abs());
+        assert!(
+            error <= tolerance,
+            "{about}: {got:e}, expected {expected:e}, seed {SEED:#x}"
+        );
+    }
+
+    #[test]
+    fn derivatives_equal_central_differences() {
+        let mut samples = Samples::new(SEED);
+        for ((name, dual), (_, f)) in unary::<Dual1>().into_iter().zip(unary::<f64>()) {
+            for _ in 0..POINTS {
+                let x = samples.uniform(0.1, 0.9);
+                let slope = dual(Dual::variable(x, 0)).partial[0];
+                assert_close(slope, difference(f, x), 1e-6, &format!("{name} at {x:e}"));
+            }
+        }
+    }
+
+    #[test]
+    fn gradients_equal_central_differences() {
+        let mut samples = Samples::new(SEED);
+        for ((name, dual), (_, f)) in binary::<Dual3>().into_iter().zip(binary::<f64>()) {
+            for _ in 0..POINTS {
+                let (x, y) = (samples.uniform(0.5, 2.0), samples.uniform(-2.0, 2.0));
+                let is_near_kink = (x - y).abs() < 1e-4 || y.abs() < 1e-1;
+                if is_near_kink {
+                    continue;
+                }
+                let partial = dual(Dual::variable(x, 0), Dual::variable(y, 2)).partial;
+                let about = format!("{name} at {x:e}, {y:e}");
+                assert_close(partial[0], difference(|x| f(x, y), x), 1e-6, &about);
+                assert_close(partial[1], 0.0, 0.0, &about);
+                assert_close(partial[2], difference(|y| f(x, y), y), 1e-6, &about);
+            }
+        }
+    }
+
+    #[test]
+    fn derivatives_equal_those_of_an_independent_crate() {
+        type Pair = (&'static str, fn(Dual1) -> Dual1, fn(Dual64) -> Dual64);
+        let pairs: [Pair; 13] = [
+            ("sin", Number::sin, |x| DualNum::sin(&x)),
+            ("cos", Number::cos, |x| DualNum::cos(&x)),
+            ("tan", Number::tan, |x| DualNum::tan(&x)),
+            ("asin", Number::asin, |x| DualNum::asin(&x)),
+            ("acos", Number::acos, |x| DualNum::acos(&x)),
+            ("exp", Number::exp, |x| DualNum::exp(&x)),
+            ("ln", Number::ln, |x| DualNum::ln(&x)),
+            ("sqrt", Number::sqrt, |x| DualNum::sqrt(&x)),
+            ("powi", |x| x.powi(-3), |x| DualNum::powi(&x, -3)),
+            (
+                "pow",
+                |x| x.pow(Dual1::splat(2.4)),
+                |x| DualNum::powf(&x, 2.4),
+            ),
+            ("x^x", |x| x.pow(x), |x| DualNum::powd(&x, x)),
+            (
+                "atan2",
+                |x| x.atan2(x.exp()),
+                |x| DualNum::atan2(&x, DualNum::exp(&x)),
+            ),
+            (
+                "composed",
+                |x| (x.sin() * x.exp() - x / (x + x.cos())).square().hypot(x),
+                |x| {
+                    let y = DualNum::sin(&x) * DualNum::exp(&x) - x / (x + DualNum::cos(&x));
+                    DualNum::sqrt(&(y * y * y * y + x * x))
+                },
+            ),
+        ];
+        let mut samples = Samples::new(SEED);
+        for (name, ours, theirs) in pairs {
+            for _ in 0..POINTS {
+                let x = samples.uniform(0.01, 0.99);
+                let ours = ours(Dual::variable(x, 0));
+                let theirs = theirs(Dual64::from_re(x).derivative());
+                let about = format!("{name} at {x:e}");
+                assert_close(ours.value, theirs.re, 1e-13, &about);
+                assert_close(ours.partial[0], theirs.eps, 1e-12, &about);
+            }
+        }
+    }
+
+    #[test]
+    fn length_of_a_clamped_vector_is_flat_inside() {
+        for q in [-1.0, -1e-30, -0.0, 0.0] {
+            let q = Dual1::variable(q, 0).max(Dual1::splat(0.0));
+            assert_eq!((q * q).sqrt().partial, [0.0], "root of the square");
+            assert_eq!(q.hypot(q).partial, [0.0], "hypot");
+            assert_eq!(Dual1::norm3(q, q, q).partial, [0.0], "norm3");
+        }
+    }
+
+    #[test]
+    fn derivatives_at_singular_points_are_those_defined() {
+        let at = |x: f64| Dual1::variable(x, 0);
+        assert_eq!(
+            [at(0.0).abs().partial, at(-2.0).abs().partial],
+            [[1.0], [-1.0]]
+        );
+        assert_eq!(
+            [at(1.0).asin().partial, at(-1.0).acos().partial],
+            [[0.0]; 2]
+        );
+        assert_eq!(at(0.0).atan2(at(0.0)).partial, [0.0]);
+        assert_eq!(at(0.0).pow(Dual::splat(0.5)).partial, [0.0]);
+        assert_eq!(at(0.0).pow(Dual::splat(1.0)).partial, [1.0]);
+        assert_eq!(at(0.0).pow(Dual::splat(2.0)).partial, [0.0]);
+        assert_eq!(at(0.0).powi(0), Dual1::splat(1.0));
+        assert_eq!(at(0.0).powi(1).partial, [1.0]);
+        assert_eq!(at(-3.0).powi(2).partial, [-6.0]);
+        assert_eq!(at(-3.0).powi(3).partial, [27.0]);
+    }
+
+    #[test]
+    fn gradient_ranges_contain_gradients() {
+        let mut samples = Samples::new(SEED);
+        let (mut bounded, mut checked) = (0, 0);
+        for round in 0..10 * POINTS {
+            let tree = Tree::random(&mut samples, 1 + round % 4);
+            let region = [0; 3].map(|_| random_interval(&mut samples));
+            let range = tree.value([0, 1, 2].map(|i| Range3::variable(region[i], i)));
+            bounded += usize::from(range.partial.iter().all(|d| d.magnitude() < f64::INFINITY));
+            for _ in 0..5 {
+                let p = region.map(|x| point_of(x, &mut samples));
+                let at = [0, 1, 2].map(|i| Dual3::variable(p[i], i));
+                if !tree.all_steps(at, is_finite) {
+                    continue;
+                }
+                checked += 1;
+                let gradient = tree.value(at).partial;
+                for (range, d) in range.partial.into_iter().zip(gradient) {
+                    assert!(
+                        range.contains(d),
+                        "{tree:?} at {p:?} in {region:?}: {d:e} in {range:?}, seed {SEED:#x}"
+                    );
+                }
+            }
+        }
+        assert!(bounded > 5 * POINTS, "only {bounded} ranges are bounded");
+        assert!(
+            checked > 20 * POINTS,
+            "only {checked} gradients were defined"
+        );
+    }
+
+    fn is_finite(x: Dual3) -> bool {
+        x.value.is_finite() && x.partial.into_iter().all(f64::is_finite)
+    }
+
+    #[test]
+    fn gradient_range_of_a_kink_is_between_its_sides() {
+        let x = Dual::<Interval, 1>::variable(Interval::new(-1.0, 2.0), 0);
+        assert_eq!(x.abs().partial, [Interval::new(-1.0, 1.0)]);
+        assert_eq!(x.max(Dual::splat(0.0)).partial, [Interval::new(0.0, 1.0)]);
+        assert_eq!(x.hypot(x).partial[0].magnitude(), 2.0);
+    }
+
+    #[test]
+    fn gradient_range_of_a_jump_is_unbounded() {
+        let x = Dual::<Interval, 1>::variable(Interval::new(-0.5, 0.5), 0);
+        let (zero, one) = (Dual::splat(0.0), Dual::splat(1.0));
+        assert_eq!(x.floor().partial, [Interval::ENTIRE]);
+        assert_eq!(x.atan2(-one).partial, [Interval::ENTIRE]);
+        assert!(x.atan2(one).partial[0].magnitude() < 1.3);
+        assert_eq!(Dual::select_lt(x, zero, x, one).partial, [Interval::ENTIRE]);
+    }
+}

@@ -136,13 +136,13 @@ impl Tree {
         }
     }
 
-    /// Whether every step on the way to the value at `at` is finite.
-    pub fn is_defined(&self, at: [f64; 3]) -> bool {
+    /// Whether `law` holds for every step on the way to the value at `at`.
+    pub fn all_steps<N: Number>(&self, at: [N; 3], law: fn(N) -> bool) -> bool {
         let children = match self {
-            Self::One(_, x) => x.is_defined(at),
-            Self::Two(_, x, y) => x.is_defined(at) && y.is_defined(at),
+            Self::One(_, x) => x.all_steps(at, law),
+            Self::Two(_, x, y) => x.all_steps(at, law) && y.all_steps(at, law),
             _ => true,
         };
-        children && self.value(at).is_finite()
+        children && law(self.value(at))
     }
 }

@@ -2,8 +2,9 @@
 //!
 //! An operation gives an interval that holds the exact result, and the `f64` result, for all finite operands within its
 //! arguments. Infinite ends mean unbounded. Where some operands have no result (the root of a negative number, zero by
-//! zero) the answer is [`Interval::ENTIRE`], which also stands for "perhaps not a number"; the operations
-//! after it speak for numbers only. A divisor that ends at 0 counts as the limit from its own side: 1 by [0, 1] is [1, inf].
+//! zero) the answer is [`Interval::ENTIRE`], which also stands for "perhaps not a number"; the operations after it speak
+//! for numbers only. A divisor 0 counts as positive, as squares, lengths and absolute values give it: 1 by [0, 1] is
+//! [1, inf], 1 by [-1, 0] is everything.
 
 use super::Number;
 use super::number::whole_power;
@@ -187,17 +188,14 @@ impl Interval {
         let c = self.hi;
         if c <= 0.0 {
             let top = quotient(c, length.hi.max(f64::MIN_POSITIVE));
+            // The length of a tiny vector may underflow to 0.
             return if length.lo > 0.0 {
                 top.next_up().min(0.0)
             } else {
                 0.0
             };
         }
-        if c >= length.lo {
-            1.0
-        } else {
-            quotient(c, length.lo).next_up().min(1.0)
-        }
+        quotient(c, length.lo).next_up().min(1.0)
     }
 }
 
@@ -240,12 +238,12 @@ impl Mul for Interval {
 impl Div for Interval {
     type Output = Self;
 
-    /// A divisor that touches 0 from one side gives a half-line; one around 0 gives everything.
+    /// A divisor that reaches down to 0 gives a half-line; one that reaches up to 0, or around it, gives everything.
     fn div(self, o: Self) -> Self {
         if o == Self::ONE {
             return self;
         }
-        if o.hi <= 0.0 && o.lo < 0.0 {
+        if o.hi < 0.0 {
             return -self / -o;
         }
         if o.lo < 0.0 || o.hi <= 0.0 || o.lo == f64::INFINITY {
@@ -530,8 +528,10 @@ pub mod tests {
         } else {
             samples.scaled(-6.0, 6.0)
         };
-        let radius = match samples.below(4) {
+        let radius = match samples.below(5) {
             0 => 0.0,
+            // One end is 0.
+            4 => center,
             1 => samples.scaled(-7.0, 1.0) * center,
             _ => samples.scaled(-6.0, 2.0),
         };
@@ -689,10 +689,66 @@ pub mod tests {
         assert!(third.lo == 0.3 && third.hi == 0.30000000000000004);
     }
 
+    /// The sign of what rounding took from each operation, by fused multiply-add; the ends must lie on that side.
+    #[test]
+    fn ends_enclose_exact_results() {
+        let mut samples = Samples::new(SEED);
+        let point = Interval::point;
+        for _ in 0..BOXES {
+            let [a, b] = [0; 2].map(|_| samples.scaled(-6.0, 6.0));
+            let (p, q, r, s) = (a * b, a / b, a.abs().sqrt(), a + b);
+            let lost_in_sum = if a.abs() > b.abs() {
+                b - (s - a)
+            } else {
+                a - (s - b)
+            };
+            let cases = [
+                (point(a) * point(b), p, a.mul_add(b, -p)),
+                (point(a).square(), a * a, a.mul_add(a, -(a * a))),
+                (point(a) / point(b), q, (-q).mul_add(b, a) * b.signum()),
+                (point(a.abs()).sqrt(), r, (-r).mul_add(r, a.abs())),
+                (point(a) + point(b), s, lost_in_sum),
+            ];
+            for (i, (range, rounded, lost)) in cases.into_iter().enumerate() {
+                assert!(range.contains(rounded), "case {i} of {a:e}, {b:e}");
+                assert!(
+                    lost >= 0.0 || range.lo < rounded,
+                    "case {i} of {a:e}, {b:e}"
+                );
+                assert!(
+                    lost <= 0.0 || range.hi > rounded,
+                    "case {i} of {a:e}, {b:e}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_negative_is_not() {
+        let tiny = Interval::point(1e-200);
+        assert_eq!(tiny.square().lo, 0.0);
+        assert_eq!((tiny * tiny).lo, 0.0);
+        assert_eq!((tiny / Interval::point(1e200)).lo, 0.0);
+        assert_eq!(Interval::new(-1.0, 1.0).hypot(tiny).lo, 0.0);
+        assert_eq!(Interval::point(-1e9).exp().lo, 0.0);
+    }
+
+    #[test]
+    fn direction_of_a_vanishing_vector_may_be_zero() {
+        let c = Interval::point(-1e-200);
+        assert!(c.direction_cosine(c.hypot(c)).contains(0.0));
+        assert_eq!(
+            Interval::ZERO.direction_cosine(Interval::ZERO),
+            Interval::ZERO
+        );
+    }
+
     #[test]
     fn infinite_ends_never_meet_zero() {
-        let zero = Interval::point(0.0);
+        let (zero, infinity) = (Interval::point(0.0), Interval::point(f64::INFINITY));
         assert_eq!(zero * Interval::ENTIRE, zero);
+        assert!((Interval::new(0.0, 1.0) * infinity).contains(0.0));
+        assert!((infinity / Interval::new(1.0, f64::INFINITY)).contains(0.0));
         assert_eq!(
             Interval::new(0.0, 1.0) * Interval::new(1.0, f64::INFINITY),
             Interval::new(0.0, f64::INFINITY)

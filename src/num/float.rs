@@ -97,7 +97,8 @@ pub trait Float:
     /// `(k, m)` with `self = 2^k m` and `m` in `[sqrt(1/2), sqrt 2)`, for a normal positive `self`.
     fn split_exponent(self) -> (Self, Self);
 
-    /// `(r, ROUNDER + k)` with `self = k pi/2 + r` and `|r| <= pi/4`, for `|self| <= TRIG_RANGE`.
+    /// `(r, ROUNDER + k)` with `self = k pi/2 + r` and `|r|` at most pi/4 (0.01 more in `f32`), for
+    /// `|self| <= TRIG_RANGE`.
     fn quadrant(self) -> (Self, Self);
 
     /// For `self = ROUNDER + k`: whether `k` is odd.
@@ -318,10 +319,10 @@ impl Float for f32 {
     /// Reduced in `f64`, where two pieces of pi / 2 suffice: single precision would need five.
     #[inline(always)]
     fn quadrant(self) -> (Self, Self) {
-        let wide = self as f64;
-        let k = (wide * std::f64::consts::FRAC_2_PI + f64::ROUNDER) - f64::ROUNDER;
-        let r = (wide - k * HALF_PI_PIECES[0]) - k * HALF_PI_REST;
-        (r as f32, k as f32 + Self::ROUNDER)
+        let quadrant = self * std::f32::consts::FRAC_2_PI + Self::ROUNDER;
+        let k = (quadrant - Self::ROUNDER) as f64;
+        let r = (self as f64 - k * HALF_PI_PIECES[0]) - k * HALF_PI_REST;
+        (r as f32, quadrant)
     }
 
     fn sin_anywhere(self) -> Self {

@@ -424,14 +424,7 @@ impl Number for Interval {
         if self.lo < 0.0 {
             return Self::ENTIRE;
         }
-        let power = (e * self.ln()).exp();
-        // 0^0 is 1, and x^0 for a negative x.
-        let has_zero = self.lo <= 0.0 && e.contains(0.0);
-        if has_zero {
-            power.hull(Self::ONE)
-        } else {
-            power
-        }
+        (e * self.ln()).exp()
     }
 
     fn powi(self, n: i32) -> Self {

@@ -100,11 +100,7 @@ pub fn cos_near<T: Float>(x: T) -> T {
 fn sin_in_quadrant<T: Float>(r: T, quadrant: T) -> T {
     let z = r * r;
     let sine = r + r * (z * polynomial(T::SIN, z));
-    let half = T::HALF * z;
-    let rest = z * z * polynomial(T::COS, z);
-    // 1 - half loses bits of half; they are added back.
-    let near_one = T::ONE - half;
-    let cosine = near_one + (((T::ONE - near_one) - half) + rest);
+    let cosine = (T::ONE - T::HALF * z) + z * z * polynomial(T::COS, z);
     quadrant.orient(if quadrant.is_odd() { cosine } else { sine })
 }
 

@@ -180,6 +180,7 @@ impl<T: Float, const W: usize> Number for Lanes<T, W> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Dual;
     use super::super::samples::{Samples, binary, unary};
     use super::*;
 
@@ -266,6 +267,25 @@ mod tests {
 
     lanes_equal_scalars!(single_lanes_give_the_bits_of_scalars, f32, 64);
     lanes_equal_scalars!(double_lanes_give_the_bits_of_scalars, f64, 32);
+
+    #[test]
+    fn derivatives_in_lanes_are_those_of_scalars() {
+        type Wide = Dual<F32x64, 2>;
+        type Alone = Dual<f32, 2>;
+        let mut samples = Samples::new(SEED);
+        for ((name, wide), (_, scalar)) in binary::<Wide>().into_iter().zip(binary::<Alone>()) {
+            let [a, b] = [0; 2].map(|_| F32x64::from_fn_mut(|| samples.uniform(-3.0, 3.0) as f32));
+            let wide = wide(Dual::variable(a, 0), Dual::variable(b, 1));
+            for i in 0..64 {
+                let (x, y) = (a.0[i], b.0[i]);
+                let scalar = scalar(Dual::variable(x, 0), Dual::variable(y, 1));
+                assert_same_bits!(wide.value.0[i], scalar.value, "{name} of {x:e}, {y:e}");
+                for (lanes, d) in wide.partial.into_iter().zip(scalar.partial) {
+                    assert_same_bits!(lanes.0[i], d, "slope of {name} at {x:e}, {y:e}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn one_far_angle_leaves_other_lanes_alone() {

@@ -3,6 +3,9 @@
 //! Each kernel is plain arithmetic without fused multiply-add, so a loop over lanes vectorises on any processor and
 //! gives the bits of the scalar call. The algorithms are those of fdlibm (Sun Microsystems 1993), with selections in
 //! place of its branches; the coefficients stand in [`Float`].
+//!
+//! Measured in `f32` over every argument in range, in units of the last place: sine and cosine 1.58, exp 0.90, ln 0.84,
+//! atan 0.86 (atan2 on random arguments 1.35); in `f64` on random arguments all are within 1 of libm.
 
 use super::float::Float;
 

@@ -1,1 +1,11 @@
-//! Under construction.
+//! Floor 3: fields as closures over any number, and which material a point shows.
+
+mod compile;
+mod gradient;
+mod paint;
+mod processor;
+
+pub use compile::{Closure, compile, compile_wide};
+pub use gradient::normal;
+pub use paint::{Share, shares};
+pub use processor::Level;

@@ -1,8 +1,15 @@
 //! The world: a scene that is ready to be traced.
 
-use super::{Occlusion, Outcome, Ray};
-use crate::scene::{Fault, Material, Scene};
+use super::hierarchy::{Hierarchy, clip};
+use super::march::{Job, Walked, march};
+use super::method::{Certified, Convex, Ending, Segment, SphereTracing};
+use super::part::{Marched, Part, PartKind, flatten, joined};
+use super::{Occlusion, Outcome, Ray, Verdict};
+use crate::catalogue::Bounds;
+use crate::field::{Level, normal, shares};
+use crate::scene::{Fault, Material, Method, Node, Scene, Settings, Shadow};
 use glam::DVec3;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Which parts of the world a ray can see.
@@ -26,39 +33,386 @@ pub struct Paint<'a> {
 }
 
 /// A scene that is ready to be traced.
-pub struct World {}
+pub struct World {
+    parts: Vec<Part>,
+    hierarchy: Hierarchy,
+    /// Parts without finite bounds.
+    endless: Vec<u32>,
+    materials: Vec<Arc<Material>>,
+    default: Arc<Material>,
+    settings: Settings,
+    /// How far a ray without end is followed through shapes without end.
+    horizon: f64,
+}
+
+/// What a ray knows while it is traced.
+struct Search {
+    best: Option<(Ending, u32)>,
+    /// Parts to be marched, the nearest last.
+    candidates: Vec<(f64, u32)>,
+    /// How far the ray is known to be free where a walk could not tell.
+    unknown: Option<f64>,
+    steps: u32,
+    evaluations: u32,
+}
+
+impl Search {
+    fn limit(&self, ray: &Ray) -> f64 {
+        self.best.map_or(ray.t_max, |(ending, _)| {
+            (ending.t + ending.error).min(ray.t_max)
+        })
+    }
+
+    /// Takes a hit if it is nearer; of two at the same place, the one declared first.
+    fn offer(&mut self, ending: Ending, part: u32) {
+        let is_nearer = match self.best {
+            None => true,
+            Some((best, other)) => {
+                let margin = ending.error + best.error;
+                if (ending.t - best.t).abs() <= margin {
+                    part < other
+                } else {
+                    ending.t < best.t
+                }
+            }
+        };
+        if is_nearer {
+            self.best = Some((ending, part));
+        }
+    }
+}
 
 impl World {
     /// The world of everything that `scene` shows.
     ///
     /// # Errors
     /// If a shape has no finite Lipschitz constant; the fault names it and the way out.
-    pub fn new(_scene: &Scene) -> Result<Self, Fault> {
-        Ok(Self {})
+    pub fn new(scene: &Scene) -> Result<Self, Fault> {
+        Self::of(&scene.shown, &scene.settings)
+    }
+
+    /// The world of these shapes.
+    ///
+    /// # Errors
+    /// As [`World::new`].
+    pub fn of(shown: &[Arc<Node>], settings: &Settings) -> Result<Self, Fault> {
+        let level = Level::best();
+        let is_auto = settings.method == Method::Auto;
+        let mut pieces: Vec<(u32, Arc<Node>)> = Vec::new();
+        for (item, node) in shown.iter().enumerate() {
+            pieces.extend(flatten(node).into_iter().map(|piece| (item as u32, piece)));
+        }
+        let items: Vec<u32> = pieces.iter().map(|(item, _)| *item).collect();
+        let nodes = joined(pieces.into_iter().map(|(_, node)| node).collect());
+        let is_whole = nodes.len() == items.len();
+        let parts = nodes
+            .into_iter()
+            .enumerate()
+            .map(|(i, node)| {
+                Part::new(
+                    node,
+                    if is_whole { items[i] } else { i as u32 },
+                    is_auto,
+                    level,
+                )
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        Ok(Self::of_parts(parts, *settings))
+    }
+
+    fn of_parts(parts: Vec<Part>, settings: Settings) -> Self {
+        let numbered = || {
+            parts
+                .iter()
+                .enumerate()
+                .map(|(i, part)| (i as u32, part.bounds))
+        };
+        let boxes: Vec<_> = numbered().filter(|(_, b)| b.is_finite()).collect();
+        let endless = numbered()
+            .filter(|(_, b)| !b.is_finite())
+            .map(|(i, _)| i)
+            .collect();
+        let reach = boxes.iter().map(|(_, b)| b.radius()).fold(0.0, f64::max);
+        let default = Arc::new(Material::default());
+        let mut materials: Vec<Arc<Material>> = Vec::new();
+        for part in &parts {
+            let mut found = Vec::new();
+            super::part::materials(&part.node, None, &mut found);
+            for material in found
+                .into_iter()
+                .map(|m| m.unwrap_or_else(|| default.clone()))
+            {
+                if !materials.iter().any(|m| Arc::ptr_eq(m, &material)) {
+                    materials.push(material);
+                }
+            }
+        }
+        Self {
+            hierarchy: Hierarchy::new(&boxes),
+            endless,
+            materials,
+            default,
+            settings,
+            horizon: reach,
+            parts,
+        }
     }
 
     /// The first surface on each ray.
-    pub fn nearest(&self, _rays: &[Ray], _visibility: Visibility) -> Vec<Outcome> {
-        Vec::new()
+    pub fn nearest(&self, rays: &[Ray], visibility: Visibility) -> Vec<Outcome> {
+        let is_seen = |part: &Part| visibility == Visibility::All || part.shadow != Shadow::None;
+        let searches = self.search(rays, &is_seen, false);
+        rays.iter()
+            .zip(&searches)
+            .map(|(ray, search)| self.outcome(ray, search))
+            .collect()
     }
 
     /// Whether any opaque surface lies on each ray; parts whose shadow is tinted or none are passed over.
-    pub fn occluded(&self, _rays: &[Ray]) -> Vec<Occlusion> {
-        Vec::new()
+    pub fn occluded(&self, rays: &[Ray]) -> Vec<Occlusion> {
+        let searches = self.search(rays, &|part: &Part| part.shadow == Shadow::Opaque, true);
+        let verdict = |search: &Search| match (search.best, search.unknown) {
+            (Some(_), _) => Verdict::Hit,
+            (None, Some(_)) => Verdict::Unknown,
+            (None, None) => Verdict::Miss,
+        };
+        searches
+            .iter()
+            .map(|s| Occlusion {
+                verdict: verdict(s),
+                steps: s.steps,
+                evaluations: s.evaluations,
+            })
+            .collect()
     }
 
     /// The materials at a point of the surface of `part`, one or more.
-    pub fn paints(&self, _part: u32, _point: DVec3) -> Vec<Paint<'_>> {
-        Vec::new()
+    pub fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>> {
+        let part = &self.parts[part as usize];
+        shares(&part.node, point.to_array())
+            .into_iter()
+            .map(|s| Paint {
+                material: s.material.unwrap_or(&self.default),
+                weight: s.weight,
+                point: s.point,
+            })
+            .collect()
     }
 
     /// Every material that some part shows.
     pub fn materials(&self) -> &[Arc<Material>] {
-        &[]
+        &self.materials
     }
 
     /// How many parts there are.
     pub fn parts(&self) -> usize {
-        0
+        self.parts.len()
+    }
+
+    /// How rays find each part, in words.
+    pub fn paths(&self) -> impl Iterator<Item = (&'static str, &Arc<Node>)> {
+        self.parts.iter().map(|part| (part.kind.word(), &part.node))
+    }
+
+    /// The item of the scene that a part belongs to.
+    pub fn item(&self, part: u32) -> u32 {
+        self.parts[part as usize].item
+    }
+
+    /// Asks all parts, the closed forms first, then marches what is left part by part, nearest first. With `any`, a ray
+    /// is content with the first hit.
+    fn search(&self, rays: &[Ray], is_seen: &dyn Fn(&Part) -> bool, any: bool) -> Vec<Search> {
+        let mut searches: Vec<Search> = rays
+            .iter()
+            .map(|ray| self.begin(ray, is_seen, any))
+            .collect();
+        loop {
+            let mut jobs: BTreeMap<u32, Vec<Job>> = BTreeMap::new();
+            for (number, (ray, search)) in rays.iter().zip(&mut searches).enumerate() {
+                if let Some((part, segment)) = self.next_walk(ray, search, any) {
+                    jobs.entry(part).or_default().push(Job {
+                        ray: number as u32,
+                        segment,
+                    });
+                }
+            }
+            if jobs.is_empty() {
+                return searches;
+            }
+            for (part, jobs) in jobs {
+                for walked in self.walk(part, rays, &jobs) {
+                    let search = &mut searches[walked.ray as usize];
+                    search.steps += walked.ending.steps;
+                    search.evaluations += walked.evaluations;
+                    match walked.ending.verdict {
+                        Verdict::Hit => search.offer(walked.ending, part),
+                        Verdict::Miss => {}
+                        Verdict::Unknown => {
+                            let free = search.unknown.unwrap_or(f64::INFINITY).min(walked.ending.t);
+                            search.unknown = Some(free);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// The closed forms on a ray, and which parts it has to be marched through.
+    fn begin(&self, ray: &Ray, is_seen: &dyn Fn(&Part) -> bool, any: bool) -> Search {
+        let mut search = Search {
+            best: None,
+            candidates: Vec::new(),
+            unknown: None,
+            steps: 0,
+            evaluations: 0,
+        };
+        let mut ask = |number: u32, enter: f64| {
+            let part = &self.parts[number as usize];
+            if is_seen(part) && !(any && search.best.is_some()) {
+                let crossing = match &part.kind {
+                    PartKind::Ball(ball) => ball.enter(ray),
+                    PartKind::HalfSpace(plane) => plane.enter(ray),
+                    PartKind::Facet(facet) => facet.enter(ray),
+                    PartKind::Marched(_) => {
+                        search.candidates.push((enter, number));
+                        None
+                    }
+                };
+                if let Some(found) = crossing.filter(|c| c.t <= ray.t_max) {
+                    let ending = Ending {
+                        verdict: Verdict::Hit,
+                        t: found.t,
+                        error: found.error,
+                        steps: 0,
+                    };
+                    search.offer(ending, number);
+                }
+            }
+            search.limit(ray)
+        };
+        let limit = self
+            .endless
+            .iter()
+            .fold(ray.t_max, |_, number| ask(*number, 0.0));
+        self.hierarchy.visit(ray, limit, ask);
+        search
+            .candidates
+            .sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1)));
+        search
+    }
+
+    /// The next part that a ray has to be marched through, and where.
+    fn next_walk(&self, ray: &Ray, search: &mut Search, any: bool) -> Option<(u32, Segment)> {
+        if any && search.best.is_some() {
+            return None;
+        }
+        let limit = search.limit(ray);
+        while let Some((_, number)) = search.candidates.pop() {
+            let PartKind::Marched(part) = &self.parts[number as usize].kind else {
+                continue;
+            };
+            if let Some((start, end)) = clip(ray.origin, ray.direction.recip(), &part.region, limit)
+            {
+                return Some((number, self.segment(ray, part, start, end)));
+            }
+        }
+        None
+    }
+
+    fn segment(&self, ray: &Ray, part: &Marched, start: f64, end: f64) -> Segment {
+        let origin = ray.origin.abs().max_element();
+        let reach = if part.region.is_finite() {
+            part.region.radius()
+        } else {
+            self.horizon
+        };
+        // Followed for ever, a ray would meet the end of floating point: 2^24 times the size of everything is enough.
+        let far = 16_777_216.0 * (origin + reach).max(ray.footprint.at_origin);
+        Segment {
+            start,
+            end: if part.region.is_finite() {
+                end
+            } else {
+                end.min(far.max(f64::MIN_POSITIVE))
+            },
+            lipschitz: part.lipschitz,
+            footprint: ray.footprint,
+            tolerance: self.settings.tolerance,
+            max_steps: self.settings.max_steps,
+            size: origin + reach,
+            is_sheet: part.is_sheet,
+        }
+    }
+
+    /// Walks jobs through one part by the method of the settings.
+    fn walk(&self, part: u32, rays: &[Ray], jobs: &[Job]) -> Vec<Walked> {
+        let PartKind::Marched(marched) = &self.parts[part as usize].kind else {
+            return Vec::new();
+        };
+        match self.settings.method {
+            Method::Sphere => march::<SphereTracing>(marched, rays, jobs),
+            Method::Auto if marched.slope.is_some() => march::<Convex>(marched, rays, jobs),
+            Method::Auto => march::<Certified>(marched, rays, jobs),
+        }
+    }
+
+    fn outcome(&self, ray: &Ray, search: &Search) -> Outcome {
+        let (steps, evaluations) = (search.steps, search.evaluations);
+        let nothing = Outcome {
+            verdict: Verdict::Miss,
+            t: f64::INFINITY,
+            error: 0.0,
+            point: DVec3::ZERO,
+            normal: DVec3::ZERO,
+            part: 0,
+            steps,
+            evaluations,
+        };
+        match (search.best, search.unknown) {
+            // A hit counts only if the ray is known to be free before it.
+            (Some((ending, part)), free) if free.is_none_or(|t| t >= ending.t) => {
+                let point = ray.at(ending.t);
+                let normal = self.normal(part, ray, point, ending);
+                Outcome {
+                    verdict: Verdict::Hit,
+                    t: ending.t,
+                    error: ending.error,
+                    point,
+                    normal,
+                    part,
+                    ..nothing
+                }
+            }
+            (_, Some(free)) => Outcome {
+                verdict: Verdict::Unknown,
+                t: free,
+                error: f64::INFINITY,
+                ..nothing
+            },
+            _ => nothing,
+        }
+    }
+
+    fn normal(&self, part: u32, ray: &Ray, point: DVec3, ending: Ending) -> DVec3 {
+        match &self.parts[part as usize].kind {
+            PartKind::Ball(ball) => ball.normal(point),
+            PartKind::HalfSpace(plane) => plane.normal,
+            PartKind::Facet(facet) => facet.normal,
+            PartKind::Marched(marched) => {
+                let back = ending
+                    .error
+                    .max(self.settings.tolerance * ray.footprint.at(ending.t));
+                normal(&marched.gradient, point, ray.direction, back)
+            }
+        }
+    }
+
+    /// The box around everything that has an end.
+    pub fn bounds(&self) -> Bounds {
+        self.parts
+            .iter()
+            .map(|p| p.bounds)
+            .filter(Bounds::is_finite)
+            .fold(Bounds::EMPTY, Bounds::hull)
     }
 }

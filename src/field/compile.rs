@@ -1,0 +1,182 @@
+//! A tree of shapes becomes a tree of closures, over any number.
+//!
+//! The functions that make closures are written once, in a macro, and stand in one module for each level of vector
+//! instructions: what is made in a module runs with its instructions. This is the one file with `unsafe`: the call into
+//! a module after its instructions were detected.
+#![allow(unsafe_code)]
+
+use super::Level;
+use crate::num::{Number, Vec3};
+use crate::scene::Node;
+
+/// A field, ready to be evaluated.
+pub type Closure<N> = Box<dyn Fn(&Vec3<N>) -> N + Send + Sync>;
+
+/// The field of `node` as a closure without special instructions: for scalars, duals and intervals.
+pub fn compile<N: Number>(node: &Node) -> Closure<N> {
+    baseline::build(node)
+}
+
+/// The field of `node` as a closure that uses the instructions of `level`, or of the best level below it that the
+/// processor has: for wide lanes and duals of them.
+pub fn compile_wide<N: Number>(node: &Node, level: Level) -> Closure<N> {
+    match level.min(Level::supported()) {
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: `Level::supported` has detected every feature of the module.
+        Level::Avx512 => unsafe { avx512::build(node) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Level::Avx2 => unsafe { avx2::build(node) },
+        _ => baseline::build(node),
+    }
+}
+
+/// The functions that make closures, for one level.
+macro_rules! builders {
+    ($(#[$feature:meta])* mod $level:ident) => {
+        mod $level {
+            use super::Closure;
+            use crate::catalogue::{Blend, Modifier, Operation, Primitive, Similarity};
+            use crate::catalogue::{with_blend, with_modifier, with_primitive};
+            use crate::num::{Number, Vec3};
+            use crate::scene::{FieldShape, Node, Shape};
+            use std::sync::Arc;
+
+            /// The closure of a node: transforms that keep angles are folded into one.
+            $(#[$feature])*
+            pub(super) fn build<N: Number>(node: &Node) -> Closure<N> {
+                let mut map = Similarity::IDENTITY;
+                let mut inner = node;
+                while let Shape::Modifier(modifier, child) = inner.shape() {
+                    let Some(step) = with_modifier!(modifier, m => m.similarity()) else { break };
+                    map = map.then(&step);
+                    inner = child;
+                }
+                if map == Similarity::IDENTITY {
+                    return shape(inner);
+                }
+                match inner.shape() {
+                    Shape::Primitive(primitive) => with_primitive!(primitive, p => placed_leaf(p.clone(), map)),
+                    _ => placed(shape(inner), map),
+                }
+            }
+
+            $(#[$feature])*
+            fn shape<N: Number>(node: &Node) -> Closure<N> {
+                match node.shape() {
+                    Shape::Primitive(primitive) => with_primitive!(primitive, p => leaf(p.clone())),
+                    Shape::Field(field) => graph(field),
+                    Shape::Combination(combination, children) => {
+                        let children = children.iter().map(|c| build(c)).collect();
+                        with_blend!(&combination.blend, b => joined(combination.operation, b.clone(), children))
+                    }
+                    Shape::Modifier(modifier, child) => {
+                        let child = build(child);
+                        with_modifier!(modifier, m => modified(m.clone(), child))
+                    }
+                }
+            }
+
+            $(#[$feature])*
+            fn leaf<P: Primitive + Send + Sync + 'static, N: Number>(leaf: P) -> Closure<N> {
+                Box::new(move |p: &Vec3<N>| leaf.distance(p))
+            }
+
+            $(#[$feature])*
+            fn placed_leaf<P: Primitive + Send + Sync + 'static, N: Number>(leaf: P, map: Similarity) -> Closure<N> {
+                let scale = N::splat(map.scale);
+                if map.is_translation() {
+                    let shift = map.shift;
+                    return Box::new(move |p: &Vec3<N>| leaf.distance(&(*p + Vec3::splat(shift))));
+                }
+                Box::new(move |p: &Vec3<N>| leaf.distance(&map.point(p)) * scale)
+            }
+
+            $(#[$feature])*
+            fn placed<N: Number>(child: Closure<N>, map: Similarity) -> Closure<N> {
+                let scale = N::splat(map.scale);
+                if map.is_translation() {
+                    let shift = map.shift;
+                    return Box::new(move |p: &Vec3<N>| child(&(*p + Vec3::splat(shift))));
+                }
+                Box::new(move |p: &Vec3<N>| child(&map.point(p)) * scale)
+            }
+
+            $(#[$feature])*
+            fn modified<M: Modifier + Send + Sync + 'static, N: Number>(modifier: M, child: Closure<N>) -> Closure<N> {
+                Box::new(move |p: &Vec3<N>| modifier.apply(p, |q| child(q)))
+            }
+
+            $(#[$feature])*
+            fn joined<B: Blend + Send + Sync + 'static, N: Number>(
+                operation: Operation,
+                blend: B,
+                mut children: Vec<Closure<N>>,
+            ) -> Closure<N> {
+                let rest = children.split_off(1);
+                let first = children.remove(0);
+                match operation {
+                    Operation::Union => Box::new(move |p: &Vec3<N>| {
+                        let mut value = first(p);
+                        for child in &rest {
+                            value = Operation::Union.join(&blend, value, child(p));
+                        }
+                        value
+                    }),
+                    Operation::Intersection => Box::new(move |p: &Vec3<N>| {
+                        let mut value = first(p);
+                        for child in &rest {
+                            value = Operation::Intersection.join(&blend, value, child(p));
+                        }
+                        value
+                    }),
+                    Operation::Difference => Box::new(move |p: &Vec3<N>| {
+                        let mut value = first(p);
+                        for child in &rest {
+                            value = Operation::Difference.join(&blend, value, child(p));
+                        }
+                        value
+                    }),
+                }
+            }
+
+            $(#[$feature])*
+            fn graph<N: Number>(field: &Arc<FieldShape>) -> Closure<N> {
+                // Registers live on the stack, in the smallest of a few sizes.
+                match field.graph.registers() {
+                    0..=8 => graph_with::<N, 8>(field),
+                    9..=32 => graph_with::<N, 32>(field),
+                    _ => graph_on_heap(field),
+                }
+            }
+
+            $(#[$feature])*
+            fn graph_with<N: Number, const R: usize>(field: &Arc<FieldShape>) -> Closure<N> {
+                let shapes: Vec<Closure<N>> = field.graph.shapes().iter().map(|s| build(s)).collect();
+                let field = field.clone();
+                Box::new(move |p: &Vec3<N>| {
+                    let mut registers = [N::splat(0.0); R];
+                    field.graph.run(p, &mut registers, &|i, q: &Vec3<N>| shapes[i](q));
+                    field.graph.output(&registers, 0)
+                })
+            }
+
+            $(#[$feature])*
+            fn graph_on_heap<N: Number>(field: &Arc<FieldShape>) -> Closure<N> {
+                let shapes: Vec<Closure<N>> = field.graph.shapes().iter().map(|s| build(s)).collect();
+                let field = field.clone();
+                Box::new(move |p: &Vec3<N>| {
+                    let mut registers = vec![N::splat(0.0); field.graph.registers()];
+                    field.graph.run(p, &mut registers, &|i, q: &Vec3<N>| shapes[i](q));
+                    field.graph.output(&registers, 0)
+                })
+            }
+        }
+    };
+}
+
+builders! { mod baseline }
+#[cfg(target_arch = "x86_64")]
+builders! { #[target_feature(enable = "avx2")] mod avx2 }
+#[cfg(target_arch = "x86_64")]
+builders! { #[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl")] mod avx512 }

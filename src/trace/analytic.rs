@@ -1,0 +1,306 @@
+//! Ray entries in closed form: sphere, plane, triangle.
+
+use super::Ray;
+use crate::catalogue::Bounds;
+use glam::DVec3;
+
+/// Half a unit in the last place of 1: the largest relative error of one operation in f64.
+const U: f64 = 0.5 * f64::EPSILON;
+
+/// Where a ray crosses a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// The distance along the ray.
+    pub t: f64,
+    /// A bound of its error, in scene units.
+    pub error: f64,
+}
+
+/// A sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    /// The centre.
+    pub centre: DVec3,
+    /// The radius, positive.
+    pub radius: f64,
+}
+
+impl Ball {
+    /// The box around it.
+    pub fn bounds(&self) -> Bounds {
+        Bounds::centred([self.radius; 3]).translate(self.centre.to_array())
+    }
+
+    /// The outward unit normal at a point of the surface.
+    pub fn normal(&self, p: DVec3) -> DVec3 {
+        (p - self.centre) / (p - self.centre).length()
+    }
+
+    /// The first crossing in front of the ray's origin; one that the origin itself lies on does not count.
+    ///
+    /// The geometric form with a discriminant that does not cancel: h = r^2 - |q - (q.d) d|^2 with q the vector from
+    /// the centre to the origin. Source: Haines et al., Ray Tracing Gems chapter 7.
+    pub fn enter(&self, ray: &Ray) -> Option<Crossing> {
+        let (near, far, half_chord) = self.crossings(ray)?;
+        let size = (ray.origin - self.centre).length() + self.radius;
+        // The foot of the perpendicular is known to a few roundings of `size`, its square to a few of size * radius.
+        let error = 8.0 * U * size * (1.0 + self.radius / half_chord.max(U * size));
+        let on_surface = 16.0 * U * size;
+        let t = if near > on_surface { near } else { far };
+        (t > on_surface).then_some(Crossing { t, error })
+    }
+
+    /// Both crossings in order, and half their distance, where the line meets the sphere.
+    fn crossings(&self, ray: &Ray) -> Option<(f64, f64, f64)> {
+        let q = ray.origin - self.centre;
+        let b = q.dot(ray.direction);
+        let foot = q - ray.direction * b;
+        // (r - |foot|)(r + |foot|) loses nothing where they are close.
+        let distance = foot.length();
+        let h = (self.radius - distance) * (self.radius + distance);
+        if h.is_nan() || h < 0.0 {
+            return None;
+        }
+        let half_chord = h.sqrt();
+        // The root of larger size by a sum that does not cancel, the other by their product |q|^2 - r^2.
+        let large = -b - half_chord.copysign(b);
+        let length = q.length();
+        let small = (length - self.radius) * (length + self.radius) / large;
+        let (near, far) = if b > 0.0 {
+            (large, small)
+        } else {
+            (small, large)
+        };
+        if large == 0.0 {
+            Some((0.0, 0.0, 0.0))
+        } else {
+            Some((near, far, half_chord))
+        }
+    }
+}
+
+/// The distances at which a line meets a sphere, by the geometric form of the textbook: the foot of the perpendicular
+/// from the centre, then the right triangle with the radius as hypotenuse. The classical discriminant |q|^2 - (q.d)^2
+/// cancels for small far spheres; here the foot itself is measured.
+pub fn sphere_geometric(ray: &Ray, ball: &Ball) -> Option<(f64, f64)> {
+    let to_centre = ball.centre - ray.origin;
+    let along = to_centre.dot(ray.direction);
+    let foot = to_centre - ray.direction * along;
+    let squared = ball.radius * ball.radius - foot.length_squared();
+    (squared >= 0.0).then(|| (along - squared.sqrt(), along + squared.sqrt()))
+}
+
+/// The distances at which a line meets a sphere, by the algebraic form of the textbook: the roots of
+/// t^2 + 2 b t + c = 0, b = q.d, c = |q|^2 - r^2, with the stable quadratic formula and a stable discriminant.
+pub fn sphere_algebraic(ray: &Ray, ball: &Ball) -> Option<(f64, f64)> {
+    ball.crossings(ray).map(|(near, far, _)| (near, far))
+}
+
+/// A half-space `normal . p < offset`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfSpace {
+    /// The outward unit normal.
+    pub normal: DVec3,
+    /// The distance of the plane from the origin along the normal.
+    pub offset: f64,
+}
+
+impl HalfSpace {
+    /// The crossing in front of the ray's origin; a parallel ray, and one that starts on the plane, has none.
+    pub fn enter(&self, ray: &Ray) -> Option<Crossing> {
+        let slope = self.normal.dot(ray.direction);
+        let height = self.normal.dot(ray.origin) - self.offset;
+        let noise = 4.0 * U * (ray.origin.abs().dot(self.normal.abs()) + self.offset.abs());
+        if slope == 0.0 || height.abs() <= noise {
+            return None;
+        }
+        let t = -height / slope;
+        let error = noise / slope.abs() + 4.0 * U * t.abs();
+        (t > 0.0 && t.is_finite()).then_some(Crossing { t, error })
+    }
+}
+
+/// A triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Facet {
+    /// The corners, counter-clockwise as seen from the front.
+    pub corners: [DVec3; 3],
+    /// The unit normal of the front.
+    pub normal: DVec3,
+}
+
+impl Facet {
+    /// The triangle with these corners.
+    pub fn new(corners: [DVec3; 3]) -> Self {
+        let [a, b, c] = corners;
+        Self {
+            corners,
+            normal: (b - a).cross(c - a).normalize_or_zero(),
+        }
+    }
+
+    /// The box around it.
+    pub fn bounds(&self) -> Bounds {
+        Bounds::around(self.corners.map(|c| c.to_array()))
+    }
+
+    /// The crossing in front of the ray's origin: where the ray meets the plane, if that point is on the same side of
+    /// every edge. The border belongs to the triangle, up to rounding, so that nothing leaks between neighbours.
+    pub fn enter(&self, ray: &Ray) -> Option<Crossing> {
+        let plane = HalfSpace {
+            normal: self.normal,
+            offset: self.normal.dot(self.corners[0]),
+        };
+        let crossing = plane.enter(ray)?;
+        let p = ray.at(crossing.t);
+        let [a, b, c] = self.corners;
+        let is_inside = [(a, b), (b, c), (c, a)].iter().all(|(from, to)| {
+            let (edge, arm) = (*to - *from, p - *from);
+            let noise = 8.0 * U * edge.length() * (arm.length() + p.length())
+                + crossing.error * edge.length();
+            edge.cross(arm).dot(self.normal) >= -noise
+        });
+        is_inside.then_some(crossing)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trace::Footprint;
+
+    fn ray(origin: [f64; 3], direction: [f64; 3]) -> Ray {
+        Ray {
+            origin: DVec3::from_array(origin),
+            direction: DVec3::from_array(direction).normalize(),
+            t_max: f64::INFINITY,
+            footprint: Footprint {
+                at_origin: 0.0,
+                spread: 1e-3,
+            },
+        }
+    }
+
+    /// Numbers in [0, 1) from a counter. Source: the finalizer of MurmurHash3.
+    fn random(i: u64) -> f64 {
+        let mut z = i
+            .wrapping_add(0x9e37_79b9_7f4a_7c15)
+            .wrapping_mul(0xff51_afd7_ed55_8ccd);
+        z = (z ^ (z >> 33)).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
+        ((z ^ (z >> 33)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    #[test]
+    fn both_forms_of_the_sphere_agree() {
+        for seed in 0..100_000u64 {
+            let x = |k: u64| 4.0 * random(seed * 16 + k) - 2.0;
+            let ball = Ball {
+                centre: DVec3::new(x(0), x(1), x(2)),
+                radius: 0.1 + random(seed * 16 + 3),
+            };
+            let ray = ray([x(4) + 5.0, x(5), x(6)], [x(7) - 4.0, x(8), x(9)]);
+            let foot = (ball.centre - ray.origin).cross(ray.direction).length();
+            if (foot / ball.radius - 1.0).abs() < 1e-3 {
+                continue; // tangent: the roots themselves are ill-conditioned
+            }
+            let (a, b) = (sphere_geometric(&ray, &ball), sphere_algebraic(&ray, &ball));
+            assert_eq!(a.is_some(), b.is_some(), "seed {seed}");
+            if let (Some(a), Some(b)) = (a, b) {
+                let scale = a.0.abs().max(a.1.abs());
+                assert!(
+                    (a.0 - b.0).abs() <= 1e-12 * scale,
+                    "seed {seed}: {a:?} {b:?}"
+                );
+                assert!(
+                    (a.1 - b.1).abs() <= 1e-12 * scale,
+                    "seed {seed}: {a:?} {b:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn small_far_sphere_is_entered_where_the_textbook_form_is_noise() {
+        let ball = Ball {
+            centre: DVec3::ZERO,
+            radius: 1e-6,
+        };
+        let t = ball
+            .enter(&ray([1e3, 0.0, 0.0], [-1.0, 0.0, 0.0]))
+            .map(|c| c.t);
+        assert_eq!(t, Some(1e3 - 1e-6));
+        assert_eq!(
+            ball.enter(&ray([1e3, 1.01e-6, 0.0], [-1.0, 0.0, 0.0])),
+            None
+        );
+        assert!(
+            ball.enter(&ray([1e3, 0.99e-6, 0.0], [-1.0, 0.0, 0.0]))
+                .is_some()
+        );
+    }
+
+    #[test]
+    fn ray_from_inside_leaves_the_sphere() {
+        let ball = Ball {
+            centre: DVec3::ZERO,
+            radius: 1.0,
+        };
+        assert_eq!(
+            ball.enter(&ray([0.0; 3], [0.0, 0.0, 1.0])).map(|c| c.t),
+            Some(1.0)
+        );
+        // From the surface inwards: the whole chord; outwards: nothing.
+        let chord = ball
+            .enter(&ray([-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]))
+            .map(|c| c.t);
+        assert_eq!(chord, Some(2.0));
+        assert_eq!(ball.enter(&ray([1.0, 0.0, 0.0], [1.0, 0.0, 0.0])), None);
+    }
+
+    #[test]
+    fn plane_misses_parallel_and_starting_rays() {
+        let floor = HalfSpace {
+            normal: DVec3::Y,
+            offset: 0.0,
+        };
+        assert_eq!(floor.enter(&ray([0.0, 1.0, 0.0], [1.0, 0.0, 0.0])), None);
+        assert_eq!(floor.enter(&ray([0.0, 0.0, 0.0], [1.0, 1.0, 0.0])), None);
+        assert_eq!(floor.enter(&ray([0.0, 1.0, 0.0], [0.0, 1.0, 0.0])), None);
+        let grazing = 0.01f64.to_radians();
+        let t = floor
+            .enter(&ray([0.0, 1.0, 0.0], [grazing.cos(), -grazing.sin(), 0.0]))
+            .map(|c| c.t);
+        assert!((t.unwrap_or(0.0) * grazing.sin() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn nothing_leaks_between_two_triangles() {
+        let [a, b] = [DVec3::new(-1.3, 0.1, 0.2), DVec3::new(1.1, 0.4, -0.3)];
+        let (left, right) = (
+            Facet::new([a, b, DVec3::new(0.0, 2.0, 0.7)]),
+            Facet::new([b, a, DVec3::new(0.1, -2.0, 0.5)]),
+        );
+        let eye = DVec3::new(0.3, 0.2, 9.0);
+        for i in 0..1_000_000u64 {
+            let target = a + (b - a) * (0.001 + 0.998 * random(i));
+            let through = ray(eye.to_array(), (target - eye).to_array());
+            assert!(
+                left.enter(&through).is_some() || right.enter(&through).is_some(),
+                "ray {i}"
+            );
+        }
+    }
+
+    #[test]
+    fn triangle_is_hit_inside_and_missed_outside() {
+        let facet = Facet::new([DVec3::ZERO, DVec3::X, DVec3::Y]);
+        let down = |x: f64, y: f64| {
+            facet
+                .enter(&ray([x, y, 2.0], [0.0, 0.0, -1.0]))
+                .map(|c| c.t)
+        };
+        assert_eq!(down(0.25, 0.25), Some(2.0));
+        assert_eq!(down(0.75, 0.75), None);
+        assert_eq!(down(-0.01, 0.5), None);
+    }
+}

@@ -1,0 +1,76 @@
+//! Methods: how one ray walks through one field.
+//!
+//! A method is a machine: it names the distance at which it wants the field, is told the value (and, if it asks, the
+//! derivative along the ray), and either goes on or ends. The driver in `march.rs` feeds packets of machines.
+
+mod certified;
+mod convex;
+mod sphere;
+
+pub use certified::Certified;
+pub use convex::Convex;
+pub use sphere::SphereTracing;
+
+use super::{Footprint, Verdict};
+
+/// What a ray walks along: from `start` to `end`, both along the ray.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment {
+    /// Where the field begins to matter; not negative.
+    pub start: f64,
+    /// Where it ends; may be infinite.
+    pub end: f64,
+    /// The Lipschitz constant on the way.
+    pub lipschitz: f64,
+    /// How wide the pixel is.
+    pub footprint: Footprint,
+    /// The tolerance, in footprints.
+    pub tolerance: f64,
+    /// How many steps are allowed.
+    pub max_steps: u32,
+    /// The size of coordinates on the way, for rounding errors: the larger of |origin| and the region's reach.
+    pub size: f64,
+    /// Whether the field is never negative.
+    pub is_sheet: bool,
+}
+
+impl Segment {
+    /// The tolerance at `t`, in scene units.
+    pub fn epsilon(&self, t: f64) -> f64 {
+        self.tolerance * self.footprint.at(t)
+    }
+
+    /// How much of a difference between two values of the field may be rounding: coordinates are rounded to
+    /// `size * 2^-53`, and a tree of a few dozen operations adds about as many roundings.
+    pub fn noise(&self) -> f64 {
+        64.0 * f64::EPSILON * self.size * self.lipschitz
+    }
+}
+
+/// How a walk ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ending {
+    /// What it found.
+    pub verdict: Verdict,
+    /// Where: the hit, or how far the ray is known to be free.
+    pub t: f64,
+    /// The surface is within `t - error` and `t + error`.
+    pub error: f64,
+    /// How many steps were taken.
+    pub steps: u32,
+}
+
+/// A walk of one ray.
+pub trait Walk: Send {
+    /// Whether it needs the derivative along the ray.
+    const NEEDS_SLOPE: bool;
+
+    /// The walk at the start of its segment.
+    fn begin(segment: Segment) -> Self;
+
+    /// Where the field is wanted.
+    fn t(&self) -> f64;
+
+    /// Takes the value there and, if wanted, the derivative along the ray; gives the end, if this is it.
+    fn observe(&mut self, value: f64, slope: f64) -> Option<Ending>;
+}

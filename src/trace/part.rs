@@ -1,0 +1,310 @@
+//! The parts of a world: what a hard union at the root falls apart into.
+
+use super::analytic::{Ball, Facet, HalfSpace};
+use crate::catalogue::Modifier;
+use crate::catalogue::{
+    AnyBlend, AnyModifier, AnyPrimitive, Bounds, Combination, Operation, Similarity, with_modifier,
+};
+use crate::field::{Closure, Level, compile, compile_wide};
+use crate::num::{Dual, F64x32};
+use crate::scene::{Fault, Material, Node, Shadow, Shape};
+use glam::DVec3;
+use std::sync::Arc;
+
+/// How rays find a part.
+pub enum PartKind {
+    /// A sphere, in closed form.
+    Ball(Ball),
+    /// A half-space, in closed form.
+    HalfSpace(HalfSpace),
+    /// A triangle, in closed form.
+    Facet(Facet),
+    /// Anything else, by its field.
+    Marched(Box<Marched>),
+}
+
+impl PartKind {
+    /// The path that rays take, in words.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Ball(_) => "analytic sphere",
+            Self::HalfSpace(_) => "analytic plane",
+            Self::Facet(_) => "analytic triangle",
+            Self::Marched(m) if m.slope.is_some() => "convex: by slope",
+            Self::Marched(_) => "sphere tracing",
+        }
+    }
+}
+
+/// A field ready to be marched.
+pub struct Marched {
+    /// Where the constant holds, and outside of which nothing is: rays are clipped to it.
+    pub region: Bounds,
+    /// The Lipschitz constant on the region.
+    pub lipschitz: f64,
+    /// Whether the field is never negative, so that a hit can't be told by a change of sign.
+    pub is_sheet: bool,
+    /// The field, over wide lanes and one ray at a time: the same bits.
+    pub value: Closure<F64x32>,
+    /// The field of a single ray.
+    pub single: Closure<f64>,
+    /// The field and its derivative along the ray, where the field is convex.
+    pub slope: Option<Slope>,
+    /// The field and its gradient.
+    pub gradient: Closure<Dual<f64, 3>>,
+}
+
+/// Closures for a value with its derivative along a ray.
+pub struct Slope {
+    /// Over wide lanes.
+    pub wide: Closure<Dual<F64x32, 1>>,
+    /// Of a single ray.
+    pub single: Closure<Dual<f64, 1>>,
+}
+
+/// A part of the world.
+pub struct Part {
+    /// How rays find it.
+    pub kind: PartKind,
+    /// Its shape, for materials.
+    pub node: Arc<Node>,
+    /// The material of all of it, where there is only one; none inside for the default.
+    pub uniform: Option<Option<Arc<Material>>>,
+    /// What it does to light behind it.
+    pub shadow: Shadow,
+    /// The item of the scene that it belongs to, by number.
+    pub item: u32,
+    /// A box around it.
+    pub bounds: Bounds,
+}
+
+impl Part {
+    /// The part of a shape.
+    ///
+    /// # Errors
+    /// If the shape has no finite Lipschitz constant.
+    pub fn new(node: Arc<Node>, item: u32, may_enter: bool, level: Level) -> Result<Self, Fault> {
+        let analytic = if may_enter { entry(&node) } else { None };
+        let kind = match analytic {
+            Some(kind) => kind,
+            None => PartKind::Marched(Box::new(Marched::new(&node, may_enter, level)?)),
+        };
+        let bounds = match &kind {
+            PartKind::Ball(ball) => ball.bounds(),
+            PartKind::HalfSpace(_) => Bounds::EVERYWHERE,
+            PartKind::Facet(facet) => facet.bounds(),
+            PartKind::Marched(marched) => marched.region,
+        };
+        let mut found = Vec::new();
+        materials(&node, None, &mut found);
+        let uniform = if found.len() == 1 { found.pop() } else { None };
+        let shadows: Vec<Shadow> = match &uniform {
+            Some(material) => vec![shadow_of(material)],
+            None => found.iter().map(shadow_of).collect(),
+        };
+        let shadow = [Shadow::Opaque, Shadow::Tinted]
+            .into_iter()
+            .find(|s| shadows.contains(s))
+            .unwrap_or(Shadow::None);
+        Ok(Self {
+            kind,
+            node,
+            uniform,
+            shadow,
+            item,
+            bounds,
+        })
+    }
+}
+
+fn shadow_of(material: &Option<Arc<Material>>) -> Shadow {
+    material.as_ref().map_or(Shadow::Opaque, |m| m.shadow)
+}
+
+impl Marched {
+    fn new(node: &Node, may_use_slope: bool, level: Level) -> Result<Self, Fault> {
+        let region = widened(node.bounds());
+        let lipschitz = node.lipschitz_over(region);
+        if !lipschitz.is_finite() {
+            return Err(unbounded(node));
+        }
+        let slope =
+            (may_use_slope && node.traits().is_convex && !node.traits().is_sheet).then(|| Slope {
+                wide: compile_wide(node, level),
+                single: compile(node),
+            });
+        Ok(Self {
+            region,
+            lipschitz,
+            is_sheet: node.traits().is_sheet,
+            value: compile_wide(node, level),
+            single: compile(node),
+            slope,
+            gradient: compile(node),
+        })
+    }
+}
+
+/// The fault of a shape that has no finite constant.
+fn unbounded(node: &Node) -> Fault {
+    let name = node.name().unwrap_or(node.kind());
+    Fault::new(
+        format!("`{name}` has no finite Lipschitz constant on its bounds, so it cannot be traced"),
+        "intersect it with something finite, as in `shape & box(4)`, or give the field a claimed `lipschitz`",
+    )
+}
+
+/// The box with room for rounding, so that no surface lies on its border.
+fn widened(bounds: Bounds) -> Bounds {
+    if bounds.is_empty() {
+        return bounds;
+    }
+    let size = (0..3)
+        .map(|i| bounds.reach(i))
+        .filter(|r| r.is_finite())
+        .fold(0.0, f64::max);
+    bounds.inflate(size * 1e-9)
+}
+
+/// The parts that the hard union at the root of `node` falls apart into, each with its paint and transforms.
+pub fn flatten(node: &Arc<Node>) -> Vec<Arc<Node>> {
+    let inherit = |child: Arc<Node>| {
+        let child = match node.paint() {
+            Some(paint) => child.painted(paint.clone()),
+            None => child,
+        };
+        child.labelled(node.name().map(Arc::from), node.place().cloned())
+    };
+    match node.shape() {
+        Shape::Combination(
+            Combination {
+                operation: Operation::Union,
+                blend,
+            },
+            children,
+        ) if blend.is_hard() => children.iter().flat_map(flatten).map(inherit).collect(),
+        Shape::Modifier(modifier, child)
+            if with_modifier!(modifier, m => m.similarity()).is_some() =>
+        {
+            let inner = flatten(child);
+            if inner.len() < 2 {
+                return vec![node.clone()];
+            }
+            let moved = |c: Arc<Node>| Node::modifier(modifier.clone(), c);
+            match inner.into_iter().map(moved).collect::<Result<Vec<_>, _>>() {
+                Ok(parts) => parts.into_iter().map(inherit).collect(),
+                Err(_) => vec![node.clone()],
+            }
+        }
+        _ => vec![node.clone()],
+    }
+}
+
+/// The closed form of a shape that is a sphere, plane or triangle under transforms that keep angles.
+fn entry(node: &Node) -> Option<PartKind> {
+    let mut map = Similarity::IDENTITY;
+    let mut inner = node;
+    while let Shape::Modifier(modifier, child) = inner.shape() {
+        map = map.then(&with_modifier!(modifier, m => m.similarity())?);
+        inner = child;
+    }
+    let Shape::Primitive(primitive) = inner.shape() else {
+        return None;
+    };
+    let outside = |p: [f64; 3]| DVec3::from_array(map.outside(p));
+    match primitive {
+        AnyPrimitive::Sphere(s) => Some(PartKind::Ball(Ball {
+            centre: outside([0.0; 3]),
+            radius: s.radius * map.scale,
+        })),
+        AnyPrimitive::Plane(p) => {
+            let normal = DVec3::from_array(map.outside_direction(p.unit_normal())).normalize();
+            let foot = outside(p.unit_normal().map(|c| c * p.offset));
+            Some(PartKind::HalfSpace(HalfSpace {
+                normal,
+                offset: normal.dot(foot),
+            }))
+        }
+        AnyPrimitive::Triangle(t) => Some(PartKind::Facet(Facet::new([
+            outside(t.a),
+            outside(t.b),
+            outside(t.c),
+        ]))),
+        _ => None,
+    }
+}
+
+/// Collects the different materials of a shape; `None` stands for unpainted.
+pub fn materials(
+    node: &Node,
+    outer: Option<&Arc<Material>>,
+    found: &mut Vec<Option<Arc<Material>>>,
+) {
+    let here = node.paint().or(outer);
+    // Children of a user's field lend their shape, not their paint.
+    let children = match node.shape() {
+        Shape::Primitive(_) | Shape::Field(_) => &[][..],
+        _ => node.children(),
+    };
+    if children.is_empty() {
+        let is_known = found.iter().any(|m| match (m, here) {
+            (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+            (None, None) => true,
+            _ => false,
+        });
+        if !is_known {
+            found.push(here.cloned());
+        }
+    }
+    children.iter().for_each(|c| materials(c, here, found));
+}
+
+/// Joins shapes of the same transparent material that overlap, so that no surface is seen inside of them.
+pub fn joined(nodes: Vec<Arc<Node>>) -> Vec<Arc<Node>> {
+    let mut out: Vec<Arc<Node>> = Vec::with_capacity(nodes.len());
+    for node in nodes {
+        let Some(material) = transparent(&node) else {
+            out.push(node);
+            continue;
+        };
+        // Everything that overlaps becomes one, and what that overlaps in turn.
+        let mut group = vec![node];
+        let mut i = 0;
+        while i < group.len() {
+            let bounds = group[i].bounds();
+            let (meets, rest): (Vec<_>, Vec<_>) = out.into_iter().partition(|other| {
+                transparent(other).is_some_and(|m| Arc::ptr_eq(&m, &material))
+                    && !other.bounds().intersect(bounds).is_empty()
+            });
+            out = rest;
+            group.extend(meets);
+            i += 1;
+        }
+        let union = Combination {
+            operation: Operation::Union,
+            blend: AnyBlend::HARD,
+        };
+        match Node::combination(union, group.clone()) {
+            Ok(whole) => out.push(whole),
+            Err(_) => out.extend(group),
+        }
+    }
+    out
+}
+
+/// The material of a shape that has only one and lets light through.
+fn transparent(node: &Node) -> Option<Arc<Material>> {
+    let mut found = Vec::new();
+    materials(node, None, &mut found);
+    match &found[..] {
+        [Some(material)] if !material.refract.is_zero() && !node.traits().is_sheet => {
+            Some(material.clone())
+        }
+        _ => None,
+    }
+}
+
+/// Whether a modifier of any part keeps angles: used by `explain`.
+pub fn keeps_angles(modifier: &AnyModifier) -> bool {
+    with_modifier!(modifier, m => m.similarity()).is_some()
+}

@@ -1,0 +1,80 @@
+//! Single rays for scripts and for the command `trace`.
+
+use super::{Footprint, Outcome, Ray, Visibility, World};
+use crate::scene::{Camera, Node, Projection, Settings, TraceRecord, Tracer};
+use glam::DVec3;
+use std::sync::{Arc, Mutex};
+
+/// The angle of a pixel of the camera: its width at distance 1, in scene units.
+pub fn camera_spread(camera: &Camera, settings: &Settings) -> f64 {
+    let rows = f64::from(settings.size[1].max(2) - 1);
+    match (camera.screen, camera.projection) {
+        (Some([_, t]), _) => 2.0 * t / rows,
+        (None, Projection::Perspective { fov }) => 2.0 * libm::tan(0.5 * fov) / rows,
+        (None, Projection::Orthographic { .. }) => 0.0,
+    }
+}
+
+/// Traces the rays of scripts: with the footprint of a pixel of the default camera.
+#[derive(Default)]
+pub struct SceneTracer {
+    /// The world that was traced last, by the shapes and settings it was made of.
+    last: Mutex<Option<(Vec<Arc<Node>>, Settings, Arc<World>)>>,
+}
+
+impl SceneTracer {
+    fn world(&self, shown: &[Arc<Node>], settings: &Settings) -> Result<Arc<World>, String> {
+        let mut last = self
+            .last
+            .lock()
+            .unwrap_or_else(|poisoned| poisoned.into_inner());
+        if let Some((nodes, made_with, world)) = &*last {
+            let is_same = nodes.len() == shown.len()
+                && nodes.iter().zip(shown).all(|(a, b)| Arc::ptr_eq(a, b));
+            if is_same && made_with == settings {
+                return Ok(world.clone());
+            }
+        }
+        let world = Arc::new(World::of(shown, settings).map_err(|fault| fault.message)?);
+        *last = Some((shown.to_vec(), *settings, world.clone()));
+        Ok(world)
+    }
+}
+
+/// The ray of a script or of the command line: its pixel is that of the default camera.
+fn script_ray(settings: &Settings, origin: [f64; 3], direction: [f64; 3]) -> Ray {
+    Ray {
+        origin: DVec3::from_array(origin),
+        direction: DVec3::from_array(direction).normalize_or_zero(),
+        t_max: f64::INFINITY,
+        footprint: Footprint {
+            at_origin: 0.0,
+            spread: camera_spread(&Camera::default(), settings),
+        },
+    }
+}
+
+impl Tracer for SceneTracer {
+    fn trace(
+        &self,
+        shown: &[Arc<Node>],
+        settings: &Settings,
+        origin: [f64; 3],
+        direction: [f64; 3],
+    ) -> Result<TraceRecord, String> {
+        let world = self.world(shown, settings)?;
+        let ray = script_ray(settings, origin, direction);
+        if ray.direction == DVec3::ZERO || !ray.origin.is_finite() || !ray.direction.is_finite() {
+            return Err("a ray needs a finite origin and a direction that is not zero".into());
+        }
+        let found: Outcome = world.nearest(&[ray], Visibility::All)[0];
+        Ok(TraceRecord {
+            verdict: found.verdict.word(),
+            t: found.t,
+            point: found.point.to_array(),
+            normal: found.normal.to_array(),
+            steps: found.steps,
+            evaluations: found.evaluations,
+        })
+    }
+}

@@ -99,6 +99,24 @@ pub struct Material {
     pub shadow: Shadow,
 }
 
+impl Material {
+    /// Whether any term is a pattern, so that the material differs from point to point.
+    pub fn has_patterns(&self) -> bool {
+        let numbers = [
+            &self.ambient,
+            &self.diffuse,
+            &self.specular,
+            &self.shininess,
+            &self.reflect,
+            &self.refract,
+            &self.ior,
+        ];
+        let colors = [&self.color, &self.absorb];
+        numbers.iter().any(|t| matches!(t, Term::Pattern(_)))
+            || colors.iter().any(|t| matches!(t, Term::Pattern(_)))
+    }
+}
+
 impl Default for Material {
     fn default() -> Self {
         let number = Term::Constant;

@@ -3,7 +3,7 @@
 use super::analytic::{Ball, Facet, HalfSpace};
 use crate::catalogue::Modifier;
 use crate::catalogue::{
-    AnyBlend, AnyModifier, AnyPrimitive, Bounds, Combination, Operation, Similarity, with_modifier,
+    AnyBlend, AnyPrimitive, Bounds, Combination, Operation, Similarity, with_modifier,
 };
 use crate::field::{Closure, Level, compile, compile_wide};
 use crate::num::{Dual, F64x32};
@@ -83,11 +83,11 @@ impl Part {
     ///
     /// # Errors
     /// If the shape has no finite Lipschitz constant.
-    pub fn new(node: Arc<Node>, item: u32, may_enter: bool, level: Level) -> Result<Self, Fault> {
-        let analytic = if may_enter { entry(&node) } else { None };
+    pub fn new(node: Arc<Node>, item: u32, is_auto: bool, level: Level) -> Result<Self, Fault> {
+        let analytic = if is_auto { entry(&node) } else { None };
         let kind = match analytic {
             Some(kind) => kind,
-            None => PartKind::Marched(Box::new(Marched::new(&node, may_enter, level)?)),
+            None => PartKind::Marched(Box::new(Marched::new(&node, is_auto, level)?)),
         };
         let bounds = match &kind {
             PartKind::Ball(ball) => ball.bounds(),
@@ -122,14 +122,21 @@ fn shadow_of(material: &Option<Arc<Material>>) -> Shadow {
 }
 
 impl Marched {
-    fn new(node: &Node, may_use_slope: bool, level: Level) -> Result<Self, Fault> {
-        let region = widened(node.bounds());
+    /// The field of `node`. Plain sphere tracing (not `is_auto`) walks from the ray's origin, as published, wherever
+    /// the constant holds in all of space; other walks are clipped to the bounds.
+    fn new(node: &Node, is_auto: bool, level: Level) -> Result<Self, Fault> {
+        let walks_everywhere = !is_auto && node.lipschitz_everywhere().is_finite();
+        let region = if walks_everywhere {
+            Bounds::EVERYWHERE
+        } else {
+            widened(node.bounds())
+        };
         let lipschitz = node.lipschitz_over(region);
         if !lipschitz.is_finite() {
             return Err(unbounded(node));
         }
         let slope =
-            (may_use_slope && node.traits().is_convex && !node.traits().is_sheet).then(|| Slope {
+            (is_auto && node.traits().is_convex && !node.traits().is_sheet).then(|| Slope {
                 wide: compile_wide(node, level),
                 single: compile(node),
             });
@@ -302,9 +309,4 @@ fn transparent(node: &Node) -> Option<Arc<Material>> {
         }
         _ => None,
     }
-}
-
-/// Whether a modifier of any part keeps angles: used by `explain`.
-pub fn keeps_angles(modifier: &AnyModifier) -> bool {
-    with_modifier!(modifier, m => m.similarity()).is_some()
 }

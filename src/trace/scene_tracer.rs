@@ -19,7 +19,14 @@ pub fn camera_spread(camera: &Camera, settings: &Settings) -> f64 {
 #[derive(Default)]
 pub struct SceneTracer {
     /// The world that was traced last, by the shapes and settings it was made of.
-    last: Mutex<Option<(Vec<Arc<Node>>, Settings, Arc<World>)>>,
+    last: Mutex<Option<Traced>>,
+}
+
+/// A world with the shapes and settings it was made of.
+struct Traced {
+    shown: Vec<Arc<Node>>,
+    settings: Settings,
+    world: Arc<World>,
 }
 
 impl SceneTracer {
@@ -28,15 +35,23 @@ impl SceneTracer {
             .last
             .lock()
             .unwrap_or_else(|poisoned| poisoned.into_inner());
-        if let Some((nodes, made_with, world)) = &*last {
-            let is_same = nodes.len() == shown.len()
-                && nodes.iter().zip(shown).all(|(a, b)| Arc::ptr_eq(a, b));
-            if is_same && made_with == settings {
-                return Ok(world.clone());
+        if let Some(traced) = &*last {
+            let is_same = traced.shown.len() == shown.len()
+                && traced
+                    .shown
+                    .iter()
+                    .zip(shown)
+                    .all(|(a, b)| Arc::ptr_eq(a, b));
+            if is_same && traced.settings == *settings {
+                return Ok(traced.world.clone());
             }
         }
         let world = Arc::new(World::of(shown, settings).map_err(|fault| fault.message)?);
-        *last = Some((shown.to_vec(), *settings, world.clone()));
+        *last = Some(Traced {
+            shown: shown.to_vec(),
+            settings: *settings,
+            world: world.clone(),
+        });
         Ok(world)
     }
 }

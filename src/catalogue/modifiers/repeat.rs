@@ -24,6 +24,7 @@ entry! {
     derived {
         axes: [Option<Row>; 3] = [None; 3];
         child: Bounds = Bounds::EVERYWHERE;
+        grid: Bounds = Bounds::EVERYWHERE;
     }
     source "copies next to the point, and the distance to the others' boxes; keeps the larger of the constant and 1"
     example "sphere(0.2).repeat(spacing: [0.6, 0, 0.6], count: [3, 1, 3])"
@@ -113,16 +114,29 @@ impl Repeat {
         self.axes.iter().flatten().any(|row| row.asked.is_some())
     }
 
-    /// The distance from `p` to the child's box along the axes that are not repeated.
+    /// What is surely left from `p` to the box of any copy that is not asked along `axis`: all copies lie inside of the
+    /// grid along the other axes.
     #[inline(always)]
-    fn beside<N: Number>(&self, p: &Vec3<N>) -> N {
-        let gap = |axis: usize| {
-            if self.axes[axis].is_some() {
-                return N::splat(0.0);
-            }
-            gap_to(&self.child, axis, p.component(axis))
+    fn guard<N: Number>(&self, axis: usize, p: &Vec3<N>) -> N {
+        let Some(row) = &self.axes[axis] else {
+            return N::splat(f64::INFINITY);
         };
-        N::norm3(gap(0), gap(1), gap(2))
+        let [u, v] =
+            [(axis + 1) % 3, (axis + 2) % 3].map(|i| gap_to(&self.grid, i, p.component(i)));
+        N::norm3(row.left_over(p.component(axis)), u, v)
+    }
+
+    /// The box with every copy of `child`.
+    fn extended(&self, child: Bounds) -> Bounds {
+        let mut bounds = child;
+        for (axis, row) in self.axes.iter().enumerate() {
+            if let Some(row) = row {
+                let last = row.last() * row.spacing;
+                bounds.low[axis] -= last;
+                bounds.high[axis] += last;
+            }
+        }
+        bounds
     }
 }
 
@@ -162,30 +176,16 @@ impl Modifier for Repeat {
         if !is_guarded {
             return nearest;
         }
-        let beside = self.beside(p);
-        let guard = |axis: usize| match &self.axes[axis] {
-            Some(row) => row.left_over(p.component(axis)),
-            None => N::splat(f64::INFINITY),
-        };
-        let guard = guard(0).min(guard(1)).min(guard(2));
-        nearest.min(guard.hypot(beside))
+        nearest
+            .min(self.guard(0, p))
+            .min(self.guard(1, p))
+            .min(self.guard(2, p))
     }
 
     fn sublevel(&self, level: f64, child: &dyn Fn(f64) -> Bounds) -> Bounds {
         // The guard can be as low as the distance to the boxes of copies.
-        let mut bounds =
-            child(level).hull(
-                self.child
-                    .inflate(if self.is_guarded() { level } else { 0.0 }),
-            );
-        for (axis, row) in self.axes.iter().enumerate() {
-            if let Some(row) = row {
-                let last = row.last() * row.spacing;
-                bounds.low[axis] -= last;
-                bounds.high[axis] += last;
-            }
-        }
-        bounds
+        let reach = if self.is_guarded() { level } else { 0.0 };
+        self.extended(child(level).hull(self.child.inflate(reach)))
     }
 
     fn domain(&self, region: Bounds) -> Bounds {
@@ -260,6 +260,7 @@ impl Modifier for Repeat {
                 asked,
             });
         }
+        self.grid = self.extended(self.child);
         Ok(())
     }
 }

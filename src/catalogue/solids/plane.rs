@@ -42,13 +42,11 @@ impl Primitive for Plane {
     fn sublevel(&self, level: f64) -> Bounds {
         let mut bounds = Bounds::EVERYWHERE;
         let normal = self.unit;
-        for axis in 0..3 {
-            if normal[axis] == 1.0 {
-                bounds.high[axis] = self.offset + level;
-            }
-            if normal[axis] == -1.0 {
-                bounds.low[axis] = -self.offset - level;
-            }
+        if let Some(axis) = normal.iter().position(|c| *c == 1.0) {
+            bounds.high[axis] = self.offset + level;
+        }
+        if let Some(axis) = normal.iter().position(|c| *c == -1.0) {
+            bounds.low[axis] = -self.offset - level;
         }
         bounds
     }

@@ -64,7 +64,9 @@ impl Certified {
                 return self.narrow();
             }
         }
-        let epsilon = segment.epsilon(now.t).max(4.0 * f64::EPSILON * now.t);
+        let epsilon = segment
+            .epsilon(now.t)
+            .max(4.0 * f64::EPSILON * segment.size.max(now.t));
         let free = now.value.abs() / segment.lipschitz;
         if segment.is_sheet {
             if free <= epsilon && self.has_departed {

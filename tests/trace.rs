@@ -1,0 +1,514 @@
+//! Laws of tracing: what rays find must be what the fields say.
+
+use fieldstone::catalogue::*;
+use fieldstone::num::Vec3;
+use fieldstone::scene::{Method, Node, Settings};
+use fieldstone::trace::{Footprint, Outcome, Ray, Verdict, Visibility, World};
+use glam::DVec3;
+use std::sync::Arc;
+
+/// Numbers in [0, 1) from a counter. Source: the finalizer of MurmurHash3.
+fn random(i: u64) -> f64 {
+    let mut z = i
+        .wrapping_add(0x9e37_79b9_7f4a_7c15)
+        .wrapping_mul(0xff51_afd7_ed55_8ccd);
+    z = (z ^ (z >> 33)).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
+    ((z ^ (z >> 33)) >> 11) as f64 / (1u64 << 53) as f64
+}
+
+fn ray(origin: [f64; 3], direction: [f64; 3]) -> Ray {
+    Ray {
+        origin: DVec3::from_array(origin),
+        direction: DVec3::from_array(direction).normalize(),
+        t_max: f64::INFINITY,
+        footprint: Footprint {
+            at_origin: 0.0,
+            spread: 1e-3,
+        },
+    }
+}
+
+fn leaf(primitive: AnyPrimitive) -> Arc<Node> {
+    Node::primitive(primitive).expect("a valid primitive")
+}
+
+fn modified(modifier: AnyModifier, child: &Arc<Node>) -> Arc<Node> {
+    Node::modifier(modifier, child.clone()).expect("a valid modifier")
+}
+
+fn combined(operation: Operation, blend: AnyBlend, children: &[Arc<Node>]) -> Arc<Node> {
+    Node::combination(Combination { operation, blend }, children.to_vec())
+        .expect("a valid combination")
+}
+
+fn sphere(r: f64) -> Arc<Node> {
+    leaf(AnyPrimitive::Sphere(Sphere::new(r)))
+}
+
+fn cuboid(size: [f64; 3], round: f64) -> Arc<Node> {
+    leaf(AnyPrimitive::Cuboid(Cuboid::new(size, round)))
+}
+
+fn moved(child: &Arc<Node>, by: [f64; 3]) -> Arc<Node> {
+    modified(AnyModifier::Translate(Translate::new(by)), child)
+}
+
+fn smooth(k: f64) -> AnyBlend {
+    AnyBlend::Smooth(Smooth::new(k))
+}
+
+/// Shapes of every kind, named.
+fn zoo() -> Vec<(&'static str, Arc<Node>)> {
+    let profile = leaf(AnyPrimitive::Polygon(Polygon::new(vec![
+        [-0.6, -0.5],
+        [0.7, -0.4],
+        [0.1, 0.0],
+        [0.6, 0.6],
+        [-0.5, 0.5],
+    ])));
+    let torus = leaf(AnyPrimitive::Torus(Torus::new(0.7, 0.2)));
+    let ellipsoid = leaf(AnyPrimitive::Ellipsoid(Ellipsoid::new([0.9, 0.4, 0.6])));
+    let tilted = |n: &Arc<Node>| {
+        modified(
+            AnyModifier::Rotate(Rotate::new(0.0, [0.0, 0.0, 1.0], 0.4, 0.7, -0.3)),
+            n,
+        )
+    };
+    let bar = cuboid([0.5, 1.6, 0.5], 0.05);
+    vec![
+        (
+            "offset sphere",
+            modified(AnyModifier::Offset(Offset::new(0.2)), &sphere(0.6)),
+        ),
+        ("ellipsoid", tilted(&ellipsoid)),
+        ("box", tilted(&cuboid([1.0, 0.8, 1.2], 0.0))),
+        ("round box", tilted(&cuboid([1.0, 0.8, 1.2], 0.1))),
+        (
+            "cylinder",
+            tilted(&leaf(AnyPrimitive::Cylinder(Cylinder::new(0.5, 1.2)))),
+        ),
+        (
+            "cone",
+            tilted(&leaf(AnyPrimitive::Cone(Cone::new(0.6, 1.4)))),
+        ),
+        (
+            "capsule",
+            tilted(&leaf(AnyPrimitive::Capsule(Capsule::new(0.3, 1.5)))),
+        ),
+        ("torus", tilted(&torus)),
+        (
+            "extruded polygon",
+            tilted(&modified(AnyModifier::Extrude(Extrude::new(0.7)), &profile)),
+        ),
+        (
+            "revolved polygon",
+            modified(AnyModifier::Revolve(Revolve::new(0.3)), &profile),
+        ),
+        (
+            "twisted bar",
+            modified(AnyModifier::Twist(Twist::new(1.3)), &bar),
+        ),
+        ("shell", {
+            let cut = moved(&cuboid([1.0, 1.0, 1.0], 0.0), [0.5, 0.5, 0.5]);
+            let shell = modified(AnyModifier::Shell(Shell::new(0.1)), &sphere(0.8));
+            combined(Operation::Difference, AnyBlend::HARD, &[shell, cut])
+        }),
+        (
+            "smooth union",
+            combined(
+                Operation::Union,
+                smooth(0.3),
+                &[moved(&sphere(0.5), [-0.4, 0.0, 0.0]), torus.clone()],
+            ),
+        ),
+        ("smooth difference", {
+            combined(
+                Operation::Difference,
+                smooth(0.2),
+                &[cuboid([1.2; 3], 0.0), moved(&sphere(0.6), [0.6, 0.6, 0.6])],
+            )
+        }),
+        (
+            "mirror",
+            modified(
+                AnyModifier::Mirror(Mirror::new(Axis(0))),
+                &moved(&torus, [0.3, 0.1, 0.0]),
+            ),
+        ),
+        (
+            "scaled",
+            modified(AnyModifier::Scale(Scale::new([1.2, 0.5, 0.8])), &torus),
+        ),
+        ("repeated", {
+            let bead = moved(&sphere(0.15), [0.07, 0.0, 0.02]);
+            modified(
+                AnyModifier::Repeat(Repeat::new([0.5, 0.4, 0.5], [3.0, 2.0, 4.0])),
+                &bead,
+            )
+        }),
+    ]
+}
+
+/// Rays from a sphere of radius 3 towards points of a ball of radius 1.2.
+fn aimed(n: u64, seed: u64) -> Vec<Ray> {
+    (0..n)
+        .map(|i| {
+            let x = |k: u64| 2.0 * random(seed + i * 8 + k) - 1.0;
+            let eye = DVec3::new(x(0), x(1), x(2)).normalize_or(DVec3::X) * 3.0;
+            let target = DVec3::new(x(3), x(4), x(5)) * 0.7;
+            ray(eye.to_array(), (target - eye).to_array())
+        })
+        .collect()
+}
+
+fn value(node: &Node, p: DVec3) -> f64 {
+    node.evaluate(&Vec3::splat(p.to_array()))
+}
+
+/// The first change of sign along a ray, by dense samples in steps of 0.002: independent of all methods.
+fn first_crossing(node: &Node, ray: &Ray, end: f64) -> Option<f64> {
+    const STEP: f64 = 0.002;
+    let mut before = value(node, ray.at(0.0));
+    for i in 1..(end / STEP) as usize {
+        let now = value(node, ray.at(STEP * i as f64));
+        if (now < 0.0) != (before < 0.0) {
+            return Some(STEP * (i as f64 - 0.5));
+        }
+        before = now;
+    }
+    None
+}
+
+fn world(node: &Arc<Node>, method: Method) -> World {
+    World::of(
+        std::slice::from_ref(node),
+        &Settings {
+            method,
+            ..Settings::default()
+        },
+    )
+    .expect("a world")
+}
+
+#[test]
+fn hits_are_the_first_changes_of_sign() {
+    for (name, node) in zoo() {
+        let rays = aimed(1500, 17);
+        let found = world(&node, Method::Auto).nearest(&rays, Visibility::All);
+        let mut hits = 0;
+        for (i, (ray, out)) in rays.iter().zip(&found).enumerate() {
+            assert_ne!(out.verdict, Verdict::Unknown, "{name}: ray {i} {out:?}");
+            let expected = first_crossing(&node, ray, 6.0);
+            match (out.verdict, expected) {
+                (Verdict::Hit, Some(t)) => {
+                    hits += 1;
+                    assert!(
+                        out.t <= t + 0.002,
+                        "{name}: ray {i} found {} behind {t}",
+                        out.t
+                    );
+                    // A hit before the sampled crossing must be a chord that the samples jumped over.
+                    let is_early = out.t < t - 0.002;
+                    let (before, after) = (
+                        value(&node, ray.at(out.t - 1e-7)),
+                        value(&node, ray.at(out.t + 1e-7)),
+                    );
+                    assert!(!is_early || before > 0.0, "{name}: ray {i} early");
+                    assert!(
+                        (before < 0.0) != (after < 0.0) || is_early,
+                        "{name}: ray {i}: {before} {after}"
+                    );
+                    assert!(value(&node, out.point).abs() < 1e-9, "{name}: ray {i}");
+                    assert!((out.normal.length() - 1.0).abs() < 1e-12, "{name}: ray {i}");
+                    assert!(
+                        out.normal.dot(ray.direction) < 1e-6,
+                        "{name}: ray {i}: seen from behind"
+                    );
+                }
+                (Verdict::Hit, None) => {
+                    // A chord shorter than a sample.
+                    assert!(value(&node, out.point).abs() < 1e-9, "{name}: ray {i}");
+                }
+                (Verdict::Miss, None) => {}
+                (verdict, expected) => {
+                    panic!("{name}: ray {i}: {verdict:?} where {expected:?} was expected")
+                }
+            }
+        }
+        assert!(hits > 100, "{name}: only {hits} hits");
+    }
+}
+
+#[test]
+fn both_methods_agree_within_the_tolerance() {
+    for (name, node) in zoo() {
+        let rays = aimed(800, 23);
+        let auto = world(&node, Method::Auto).nearest(&rays, Visibility::All);
+        let sphere = world(&node, Method::Sphere).nearest(&rays, Visibility::All);
+        let differ = auto
+            .iter()
+            .zip(&sphere)
+            .filter(|(a, b)| a.verdict != b.verdict)
+            .count();
+        // Hart's rays that pass within a tenth of a pixel are called hits.
+        assert!(differ <= 8, "{name}: {differ} of 800 verdicts differ");
+    }
+}
+
+#[test]
+fn analytic_and_marched_surfaces_are_the_same() {
+    let ball = moved(&sphere(0.8), [0.1, -0.2, 0.3]);
+    let tilted = |n: &Arc<Node>| {
+        modified(
+            AnyModifier::Rotate(Rotate::new(0.7, [1.0, 2.0, 0.5], 0.0, 0.0, 0.0)),
+            n,
+        )
+    };
+    let floor = tilted(&leaf(AnyPrimitive::Plane(Plane::new(
+        [0.0, 1.0, 0.0],
+        -0.4,
+    ))));
+    for node in [ball, floor] {
+        // An offset of zero hides the closed form.
+        let hidden = modified(
+            AnyModifier::Mirror(Mirror::new(Axis(2))),
+            &modified(AnyModifier::Mirror(Mirror::new(Axis(2))), &node),
+        );
+        let hidden = combined(
+            Operation::Intersection,
+            AnyBlend::HARD,
+            &[hidden, cuboid([20.0; 3], 0.0)],
+        );
+        let node = combined(
+            Operation::Intersection,
+            AnyBlend::HARD,
+            &[node.clone(), cuboid([20.0; 3], 0.0)],
+        );
+        let rays: Vec<Ray> = aimed(500, 5)
+            .into_iter()
+            .filter(|r| r.origin.z > 0.0 && r.at(3.0).z > 0.0)
+            .collect();
+        let a = world(&node, Method::Auto).nearest(&rays, Visibility::All);
+        let b = world(&hidden, Method::Auto).nearest(&rays, Visibility::All);
+        for (a, b) in a
+            .iter()
+            .zip(&b)
+            .filter(|(a, b)| a.point.z > 0.0 && b.point.z > 0.0)
+        {
+            assert!((a.t - b.t).abs() < 1e-9, "{a:?} {b:?}");
+        }
+    }
+}
+
+fn same_bits(a: &Outcome, b: &Outcome) -> bool {
+    let bits = |o: &Outcome| {
+        let [x, y, z] = o.normal.to_array().map(f64::to_bits);
+        (
+            o.verdict,
+            o.t.to_bits(),
+            o.error.to_bits(),
+            [x, y, z],
+            o.part,
+            o.steps,
+            o.evaluations,
+        )
+    };
+    bits(a) == bits(b)
+}
+
+#[test]
+fn results_do_not_depend_on_packing() {
+    for (name, node) in zoo() {
+        let rays = aimed(300, 41);
+        let both = combined(
+            Operation::Union,
+            AnyBlend::HARD,
+            &[node, moved(&sphere(0.4), [0.5, 0.5, 0.0])],
+        );
+        for method in [Method::Auto, Method::Sphere] {
+            let world = world(&both, method);
+            let together = world.nearest(&rays, Visibility::All);
+            for (i, ray) in rays.iter().enumerate() {
+                let alone = world.nearest(std::slice::from_ref(ray), Visibility::All)[0];
+                assert!(
+                    same_bits(&alone, &together[i]),
+                    "{name}: ray {i}: {alone:?} {:?}",
+                    together[i]
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn occlusion_is_a_hit_before_the_end() {
+    for (name, node) in zoo() {
+        let rays: Vec<Ray> = aimed(400, 61)
+            .into_iter()
+            .map(|r| Ray { t_max: 2.8, ..r })
+            .collect();
+        let world = world(&node, Method::Auto);
+        let hits = world.nearest(&rays, Visibility::All);
+        let blocked = world.occluded(&rays);
+        for (i, (a, b)) in hits.iter().zip(&blocked).enumerate() {
+            assert_eq!(a.verdict, b.verdict, "{name}: ray {i}");
+        }
+    }
+}
+
+#[test]
+fn rays_leave_the_surface_that_they_start_on() {
+    for (name, node) in zoo() {
+        let world = world(&node, Method::Auto);
+        let rays = aimed(400, 77);
+        let hits = world.nearest(&rays, Visibility::All);
+        let (mut tried, mut convex_hits) = (0, 0);
+        for hit in hits.iter().filter(|h| h.verdict == Verdict::Hit) {
+            let away = ray(
+                (hit.point + hit.normal * 1e-12).to_array(),
+                hit.normal.to_array(),
+            );
+            let next = world.nearest(&[away], Visibility::All)[0];
+            tried += 1;
+            assert!(
+                next.verdict != Verdict::Hit || next.t > 1e-6,
+                "{name}: {next:?}"
+            );
+            convex_hits += usize::from(node.traits().is_convex && next.verdict == Verdict::Hit);
+        }
+        assert!(
+            tried > 30 && convex_hits == 0,
+            "{name}: {convex_hits} of {tried}"
+        );
+    }
+}
+
+#[test]
+fn rays_inside_find_the_way_out() {
+    for node in [
+        sphere(1.0),
+        modified(AnyModifier::Offset(Offset::new(0.5)), &sphere(0.5)),
+    ] {
+        let out = world(&node, Method::Auto)
+            .nearest(&[ray([0.0; 3], [0.6, 0.0, 0.8])], Visibility::All)[0];
+        assert_eq!(out.verdict, Verdict::Hit);
+        assert!(
+            (out.t - 1.0).abs() < 1e-12 && out.normal.dot(DVec3::new(0.6, 0.0, 0.8)) > 0.999_999
+        );
+    }
+    // Across a box from face to face.
+    let out = world(&cuboid([2.0, 1.0, 1.0], 0.0), Method::Auto)
+        .nearest(&[ray([-0.999, 0.1, 0.1], [1.0, 0.0, 0.0])], Visibility::All)[0];
+    assert!((out.t - 1.999).abs() < 1e-12, "{out:?}");
+}
+
+#[test]
+fn coincident_cut_leaves_no_skin() {
+    // A = [-1, 1]^3 minus B = [0, 1] x [-1, 1]^2: the field touches zero on the common face.
+    let tool = moved(&cuboid([1.0, 2.0, 2.0], 0.0), [0.5, 0.0, 0.0]);
+    let cut = combined(
+        Operation::Difference,
+        AnyBlend::HARD,
+        &[cuboid([2.0; 3], 0.0), tool],
+    );
+    let out = world(&cut, Method::Auto)
+        .nearest(&[ray([0.5, 5.0, 0.0], [0.0, -1.0, 0.0])], Visibility::All)[0];
+    assert_eq!(out.verdict, Verdict::Miss, "{out:?}");
+}
+
+#[test]
+fn near_misses_of_a_marched_sphere_miss() {
+    let ball = modified(AnyModifier::Offset(Offset::new(0.5)), &sphere(0.5));
+    let torus = leaf(AnyPrimitive::Torus(Torus::new(0.5, 0.5)));
+    for (node, top) in [(&ball, 1.0), (&torus, 0.5)] {
+        for exponent in 1..=12 {
+            let clearance = 10f64.powi(-exponent);
+            let at = |y: f64| {
+                world(node, Method::Auto)
+                    .nearest(&[ray([-5.0, y, 0.0], [1.0, 0.0, 0.0])], Visibility::All)[0]
+            };
+            assert_eq!(
+                at(top + clearance).verdict,
+                Verdict::Miss,
+                "clearance {clearance}"
+            );
+        }
+    }
+}
+
+#[test]
+fn wrong_constants_are_refuted() {
+    use fieldstone::scene::{FieldShape, GraphBuilder};
+    // f = 20 (|p| - 0.5), claimed to have constant 15: the second step lands inside.
+    let mut b = GraphBuilder::new();
+    let p = b.point();
+    let r = b.call(Function::Norm3, &p);
+    let half = b.constant(0.5);
+    let twenty = b.constant(20.0);
+    let d = b.subtract(r, half);
+    let f = b.multiply(d, twenty);
+    let graph = b.finish(&[f]);
+    let field = Node::field(FieldShape {
+        name: "steep".into(),
+        graph,
+        claimed: Some(15.0),
+    })
+    .expect("a field");
+    let node = combined(
+        Operation::Intersection,
+        AnyBlend::HARD,
+        &[field, cuboid([4.0; 3], 0.0)],
+    );
+    let out = world(&node, Method::Auto)
+        .nearest(&[ray([-3.0, 0.1, 0.0], [1.0, 0.0, 0.0])], Visibility::All)[0];
+    assert_eq!(out.verdict, Verdict::Unknown, "{out:?}");
+}
+
+#[test]
+fn sphere_tracing_takes_the_steps_that_theory_says() {
+    // Towards a plane at angle a from height h, until |f| < eps: n = ceil(ln(eps / h) / ln(1 - sin a)) steps forward.
+    // With a tolerance of eps(t) = 0.1 * spread * t the end is where f < eps(t); the height shrinks by (1 - sin a) each
+    // time, so the walk can be followed by hand.
+    let floor = leaf(AnyPrimitive::Plane(Plane::new([0.0, 1.0, 0.0], 0.0)));
+    for degrees in [90.0f64, 45.0, 10.0, 2.0] {
+        let a = degrees.to_radians();
+        let ray = ray([0.0, 1.0, 0.0], [a.cos(), -a.sin(), 0.0]);
+        let out = world(&floor, Method::Sphere).nearest(&[ray], Visibility::All)[0];
+        let (mut height, mut t, mut steps) = (1.0f64, 0.0f64, 1u32);
+        while height >= 0.1 * 1e-3 * t {
+            t += height;
+            height *= 1.0 - a.sin();
+            steps += 1;
+        }
+        assert_eq!(out.verdict, Verdict::Hit);
+        assert_eq!(out.steps, steps, "{degrees} degrees");
+    }
+}
+
+#[test]
+fn scaling_by_a_power_of_two_keeps_the_bits() {
+    for (name, node) in zoo() {
+        for exponent in [-30, 30] {
+            let s = 2f64.powi(exponent);
+            let large = modified(AnyModifier::Scale(Scale::new([s; 3])), &node);
+            let rays = aimed(100, 91);
+            let scaled: Vec<Ray> = rays
+                .iter()
+                .map(|r| Ray {
+                    origin: r.origin * s,
+                    ..*r
+                })
+                .collect();
+            let a = world(&node, Method::Auto).nearest(&rays, Visibility::All);
+            let b = world(&large, Method::Auto).nearest(&scaled, Visibility::All);
+            for (i, (a, b)) in a.iter().zip(&b).enumerate() {
+                assert_eq!(a.verdict, b.verdict, "{name}: ray {i}");
+                assert_eq!(
+                    (a.t * s).to_bits(),
+                    b.t.to_bits(),
+                    "{name} at 2^{exponent}: ray {i}"
+                );
+            }
+        }
+    }
+}

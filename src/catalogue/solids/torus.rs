@@ -1,6 +1,6 @@
 //! The torus.
 
-use crate::catalogue::{Bounds, Primitive, Range, Traits, declaration::entry};
+use crate::catalogue::{Bounds, Class, Primitive, Range, Traits, declaration::entry};
 use crate::num::{Number, Vec3};
 
 entry! {
@@ -28,7 +28,14 @@ impl Primitive for Torus {
     }
 
     fn traits(&self) -> Traits {
+        // A tube wider than its ring meets itself, and what lies inside of both is further from the surface than told.
+        let class = if self.minor <= self.major {
+            Class::Exact
+        } else {
+            Class::Bound
+        };
         Traits {
+            class,
             is_convex: false,
             ..Traits::CONVEX
         }

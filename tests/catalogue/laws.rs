@@ -1,0 +1,353 @@
+//! The laws.
+
+use super::samples::Dice;
+use fieldstone::catalogue::*;
+use fieldstone::field::{Level, compile, compile_wide};
+use fieldstone::num::{Dual, F32x64, F64x32, Interval, Lanes, Vec3};
+use fieldstone::scene::Node;
+
+type Law = Result<(), String>;
+
+fn value(node: &Node, p: [f64; 3]) -> f64 {
+    node.evaluate(&Vec3::splat(p))
+}
+
+fn gradient_at(node: &Node, p: [f64; 3]) -> [f64; 3] {
+    let [x, y, z] = std::array::from_fn(|i| Dual::<f64, 3>::variable(p[i], i));
+    node.evaluate(&Vec3::new(x, y, z)).partial
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    v[0].hypot(v[1]).hypot(v[2])
+}
+
+fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
+    length([a[0] - b[0], a[1] - b[1], a[2] - b[2]])
+}
+
+/// Where a node is looked at: its bounds, infinite ones cut at 2.
+fn region(node: &Node) -> Bounds {
+    node.bounds().intersect(Bounds::centred([2.0; 3]))
+}
+
+/// Around the region, where the constant must hold too if it holds everywhere.
+fn surroundings(node: &Node) -> Bounds {
+    let inner = region(node);
+    if inner.is_empty() {
+        return inner;
+    }
+    let is_global = node.lipschitz_everywhere() <= node.lipschitz();
+    inner.inflate(if is_global { 0.7 } else { 0.0 })
+}
+
+/// |f(p) - f(q)| <= lambda |p - q|, for random pairs near and far, and for pairs along the gradient.
+pub fn lipschitz(node: &Node, dice: &mut Dice) -> Law {
+    let domain = surroundings(node);
+    let lambda = node.lipschitz();
+    if domain.is_empty() || lambda.is_infinite() {
+        return Ok(());
+    }
+    for i in 0..300 {
+        let p = dice.point(&domain);
+        let q = match i % 3 {
+            0 => dice.point(&domain),
+            1 => p.map(|c| c + dice.between(-1e-3, 1e-3)),
+            _ => {
+                let g = gradient_at(node, p);
+                std::array::from_fn(|k| p[k] + 1e-3 * g[k])
+            }
+        };
+        if !domain.contains(q) {
+            continue;
+        }
+        let (change, distance) = ((value(node, p) - value(node, q)).abs(), apart(p, q));
+        let noise = 1e-13 * (1.0 + lambda);
+        if change > lambda * distance * (1.0 + 1e-12) + noise {
+            return Err(format!(
+                "slope {} > {lambda} between {p:?} and {q:?}",
+                change / distance
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The steepest slope found reaches the constant up to a factor.
+pub fn tight(node: &Node, dice: &mut Dice, slack: f64) -> Law {
+    let domain = surroundings(node);
+    if domain.is_empty() || node.lipschitz().is_infinite() {
+        return Ok(());
+    }
+    let slopes = (0..4000).map(|_| length(gradient_at(node, dice.point(&domain))));
+    let steepest = slopes.filter(|s| s.is_finite()).fold(0.0, f64::max);
+    if node.lipschitz() <= slack * steepest {
+        return Ok(());
+    }
+    Err(format!(
+        "constant {} but the steepest slope is {steepest}",
+        node.lipschitz()
+    ))
+}
+
+/// Points where the field is at most a level lie in the box for that level.
+pub fn bounded(node: &Node, dice: &mut Dice) -> Law {
+    let everywhere = Bounds::centred([4.0; 3]);
+    for level in [0.0, 0.1, 0.5] {
+        let bounds = node.sublevel(level);
+        for _ in 0..400 {
+            let p = dice.point(&everywhere);
+            if value(node, p) <= level && !bounds.inflate(1e-12).contains(p) {
+                return Err(format!(
+                    "{p:?} has {} but lies outside of {bounds:?}",
+                    value(node, p)
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Points of the surface: where a walk along the gradient from random points ends.
+fn surface(node: &Node, dice: &mut Dice, n: usize) -> Vec<[f64; 3]> {
+    let domain = region(node).inflate(0.3);
+    let mut found = Vec::new();
+    for _ in 0..4 * n {
+        let mut p = dice.point(&domain);
+        for _ in 0..60 {
+            let (f, g) = (value(node, p), gradient_at(node, p));
+            let squared = g.iter().map(|c| c * c).sum::<f64>();
+            if f.abs() < 1e-10 {
+                found.push(p);
+                break;
+            }
+            if squared < 1e-12 {
+                break;
+            }
+            p = std::array::from_fn(|k| p[k] - f * g[k] / squared);
+        }
+        if found.len() == n {
+            break;
+        }
+    }
+    found
+}
+
+/// |f(p)| <= lambda |p - s| for every surface point s, lambda = 1 where the class promises a bound.
+pub fn below_distance(node: &Node, dice: &mut Dice) -> Law {
+    let domain = surroundings(node);
+    if domain.is_empty() || node.lipschitz().is_infinite() {
+        return Ok(());
+    }
+    let allowed = if node.class() >= Class::Bound {
+        1.0
+    } else {
+        node.lipschitz()
+    };
+    let points: Vec<_> = surface(node, dice, 150)
+        .into_iter()
+        .filter(|s| domain.contains(*s))
+        .collect();
+    for _ in 0..150 {
+        let p = dice.point(&domain);
+        let f = value(node, p).abs();
+        if let Some(s) = points
+            .iter()
+            .find(|s| f > allowed * apart(p, **s) * (1.0 + 1e-9) + 2e-10)
+        {
+            return Err(format!(
+                "|f| = {f} at {p:?}, but {s:?} of the surface is {} away",
+                apart(p, *s)
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// From p, a walk of length |f| down the gradient ends on the surface: with `below_distance`, f is the distance.
+pub fn exact(node: &Node, dice: &mut Dice) -> Law {
+    let domain = surroundings(node);
+    let mut tried = 0;
+    for _ in 0..300 {
+        let p = dice.point(&domain);
+        let (f, g) = (value(node, p), gradient_at(node, p));
+        if (length(g) - 1.0).abs() > 1e-9 {
+            // On a medial axis the gradient is that of one side only; an exact field has slope 1 elsewhere.
+            return Err(format!("slope {} at {p:?}", length(g)));
+        }
+        let foot = std::array::from_fn(|k| p[k] - f * g[k]);
+        tried += 1;
+        if value(node, foot).abs() > 1e-9 {
+            return Err(format!(
+                "|f| = {f} at {p:?}, but its foot {foot:?} has {}",
+                value(node, foot)
+            ));
+        }
+    }
+    if tried > 0 {
+        Ok(())
+    } else {
+        Err("nothing tried".into())
+    }
+}
+
+/// The dual gradient is what differences say, wherever the two one-sided differences agree.
+pub fn gradient(node: &Node, dice: &mut Dice) -> Law {
+    const H: f64 = 1e-6;
+    let domain = Bounds::centred([1.5; 3]);
+    for _ in 0..60 {
+        let p = dice.point(&domain);
+        let g = gradient_at(node, p);
+        for axis in 0..3 {
+            let at = |h: f64| {
+                let mut q = p;
+                q[axis] += h;
+                value(node, q)
+            };
+            let (ahead, behind) = ((at(H) - at(0.0)) / H, (at(0.0) - at(-H)) / H);
+            let is_smooth = (ahead - behind).abs() < 1e-4;
+            if is_smooth && (g[axis] - 0.5 * (ahead + behind)).abs() > 1e-4 {
+                return Err(format!(
+                    "component {axis} at {p:?}: {} but differences say {ahead}",
+                    g[axis]
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The value over a box contains the value at its points, at any scale.
+pub fn enclosed(node: &Node, dice: &mut Dice) -> Law {
+    for (size, centre) in [(0.3, 1.0), (1e-6, 1.0), (1e6, 1e6), (3.0, 0.5)] {
+        for _ in 0..6 {
+            let low: [f64; 3] = std::array::from_fn(|_| dice.between(-centre, centre));
+            let bounds = Bounds::new(low, low.map(|c| c + size * dice.unit()));
+            let [x, y, z] = std::array::from_fn(|i| Interval::new(bounds.low[i], bounds.high[i]));
+            let range = node.evaluate(&Vec3::new(x, y, z));
+            for _ in 0..10 {
+                let p = dice.point(&bounds);
+                if bounds.contains(p) && !range.contains(value(node, p)) {
+                    return Err(format!(
+                        "{} at {p:?} is outside of {range:?}",
+                        value(node, p)
+                    ));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Closures give the bits of the walked tree, in scalars and lanes, on every level of instructions.
+pub fn same_bits(node: &Node, dice: &mut Dice) -> Law {
+    let domain = Bounds::centred([1.5; 3]);
+    let points: Vec<[f64; 3]> = (0..64).map(|_| dice.point(&domain)).collect();
+    let (single, single32) = (compile::<f64>(node), compile::<f32>(node));
+    let expected: Vec<u64> = points
+        .iter()
+        .map(|p| single(&Vec3::splat(*p)).to_bits())
+        .collect();
+    let expected32: Vec<u32> = points
+        .iter()
+        .map(|p| single32(&Vec3::splat(*p)).to_bits())
+        .collect();
+    for (name, level) in Level::ALL {
+        let (wide, wide32) = (
+            compile_wide::<F64x32>(node, level),
+            compile_wide::<F32x64>(node, level),
+        );
+        let lane = |axis: usize| Lanes(std::array::from_fn(|i| points[i][axis]));
+        let found = wide(&Vec3::new(lane(0), lane(1), lane(2))).0;
+        if let Some(i) = (0..32).find(|i| found[*i].to_bits() != expected[*i]) {
+            return Err(format!("f64 on {name}: {} at {:?}", found[i], points[i]));
+        }
+        let lane = |axis: usize| Lanes(std::array::from_fn(|i| points[i][axis] as f32));
+        let found = wide32(&Vec3::new(lane(0), lane(1), lane(2))).0;
+        if let Some(i) = (0..64).find(|i| found[*i].to_bits() != expected32[*i]) {
+            return Err(format!("f32 on {name}: {} at {:?}", found[i], points[i]));
+        }
+    }
+    Ok(())
+}
+
+/// The compiled closure is close to the walked tree (folded transforms round differently).
+pub fn walked(node: &Node, dice: &mut Dice) -> Law {
+    let single = compile::<f64>(node);
+    for _ in 0..50 {
+        let p = dice.point(&Bounds::centred([1.5; 3]));
+        let (a, b) = (single(&Vec3::splat(p)), value(node, p));
+        if (a - b).abs() > 1e-12 {
+            return Err(format!("{a} compiled, {b} walked, at {p:?}"));
+        }
+    }
+    Ok(())
+}
+
+/// A constant over a region holds there, and is no larger than over a larger one.
+pub fn regional(node: &Node, dice: &mut Dice) -> Law {
+    let small = Bounds::new([0.1, -0.2, 0.05], [0.4, 0.3, 0.5]);
+    let lambda = node.lipschitz_over(small);
+    if lambda > node.lipschitz_over(small.inflate(0.5)) {
+        return Err("larger on the smaller region".into());
+    }
+    for _ in 0..100 {
+        let (p, q) = (dice.point(&small), dice.point(&small));
+        let change = (value(node, p) - value(node, q)).abs();
+        if change > lambda * apart(p, q) * (1.0 + 1e-12) + 1e-13 {
+            return Err(format!("slope {} > {lambda}", change / apart(p, q)));
+        }
+    }
+    Ok(())
+}
+
+/// A finite repetition has the inside of the union of its copies, and keeps its Lipschitz constant.
+pub fn repeated_is_union(node: &Node, dice: &mut Dice) -> Law {
+    let spacing: [f64; 3] = std::array::from_fn(|_| dice.between(0.4, 2.0));
+    let count: [f64; 3] = std::array::from_fn(|_| 1.0 + dice.below(5) as f64);
+    let repeat = AnyModifier::Repeat(Repeat::new(spacing, count));
+    let Ok(repeated) = Node::modifier(repeat, std::sync::Arc::new(node.clone())) else {
+        return Ok(());
+    };
+    let places = |axis: usize| {
+        let n = count[axis];
+        (0..n as u32).map(move |i| (f64::from(i) - 0.5 * (n - 1.0)) * spacing[axis])
+    };
+    let domain = Bounds::centred([3.0; 3]);
+    for _ in 0..60 {
+        let p = dice.point(&domain);
+        let mut nearest = f64::INFINITY;
+        for x in places(0) {
+            for y in places(1) {
+                for z in places(2) {
+                    nearest = nearest.min(value(node, [p[0] - x, p[1] - y, p[2] - z]));
+                }
+            }
+        }
+        let found = value(&repeated, p);
+        // Inside the same; outside no further than the nearest copy.
+        let is_same_side = (found < 0.0) == (nearest < 0.0) || nearest.abs() < 1e-12;
+        let lipschitz = node.lipschitz().max(1.0);
+        let allowed = if node.class() >= Class::Bound {
+            nearest.max(0.0) * lipschitz
+        } else {
+            f64::INFINITY
+        };
+        if !is_same_side
+            || (nearest > 0.0 && found > allowed.max(nearest) + box_slack(node, p) + 1e-12)
+        {
+            return Err(format!(
+                "{found} but the copies say {nearest} at {p:?}; spacing {spacing:?} count {count:?}"
+            ));
+        }
+    }
+    lipschitz(&repeated, dice)
+}
+
+/// By how much the distance to a copy's box can exceed the copy's own field.
+fn box_slack(node: &Node, _: [f64; 3]) -> f64 {
+    if node.class() == Class::Exact {
+        0.0
+    } else {
+        f64::INFINITY
+    }
+}

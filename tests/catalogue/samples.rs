@@ -1,0 +1,196 @@
+//! Random instances of every entry, from its declaration.
+
+use fieldstone::catalogue::*;
+use fieldstone::scene::Node;
+use std::sync::Arc;
+
+/// Numbers from a counter, so that a seed names a case. Source: the finalizer of MurmurHash3.
+pub struct Dice {
+    state: u64,
+}
+
+impl Dice {
+    pub fn new(seed: u64) -> Self {
+        Self {
+            state: seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x1234_5678,
+        }
+    }
+
+    /// A number in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.state;
+        z = (z ^ (z >> 33)).wrapping_mul(0xff51_afd7_ed55_8ccd);
+        z = (z ^ (z >> 33)).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
+        ((z ^ (z >> 33)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// A number from `low` to `high`.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// A point of a box.
+    pub fn point(&mut self, bounds: &Bounds) -> [f64; 3] {
+        std::array::from_fn(|i| self.between(bounds.low[i], bounds.high[i]))
+    }
+
+    /// One of `n`.
+    pub fn below(&mut self, n: usize) -> usize {
+        ((self.unit() * n as f64) as usize).min(n - 1)
+    }
+}
+
+pub fn declarations() -> impl Iterator<Item = &'static Declaration> {
+    let lists = [
+        AnyPrimitive::DECLARATIONS,
+        AnyModifier::DECLARATIONS,
+        AnyBlend::DECLARATIONS,
+    ];
+    lists.into_iter().flatten().copied()
+}
+
+/// A random argument that the parameter's range allows.
+fn argument(parameter: &Parameter, dice: &mut Dice) -> Argument {
+    let range = parameter.range;
+    let low = range
+        .low
+        .max(-1.0)
+        .max(if range.includes_low { f64::MIN } else { 0.1 });
+    let high = range.high.min(1.2);
+    let mut number = || dice.between(low, high);
+    match parameter.kind {
+        Kind::Number => Argument::Number(number()),
+        Kind::Count => Argument::Number(number().round()),
+        Kind::Angle => Argument::Angle(number()),
+        Kind::Vector2 => Argument::Vector2([number(), number()]),
+        Kind::Vector3 | Kind::Factors => Argument::Vector3([number(), number(), number()]),
+        Kind::Direction => Argument::Vector3([number() + 0.01, number(), number()]),
+        Kind::Axis => Argument::Axis(dice.below(3)),
+        Kind::Points => Argument::Points(star(dice)),
+    }
+}
+
+/// A star-shaped outline, which does not cross itself.
+fn star(dice: &mut Dice) -> Vec<[f64; 2]> {
+    let n = 3 + dice.below(5);
+    (0..n)
+        .map(|i| {
+            let (angle, r) = (
+                std::f64::consts::TAU * i as f64 / n as f64,
+                dice.between(0.3, 0.9),
+            );
+            [r * angle.cos(), r * angle.sin()]
+        })
+        .collect()
+}
+
+fn arguments(declaration: &Declaration, dice: &mut Dice) -> Vec<Argument> {
+    declaration
+        .parameters
+        .iter()
+        .map(|p| match (p.name, p.default) {
+            // Copies: a few, so that a union can be compared; spacings that let copies overlap now and then.
+            ("count", Some(_)) => {
+                Argument::Vector3([0; 3].map(|_: i32| 1.0 + dice.below(5) as f64))
+            }
+            ("spacing", None) => Argument::Vector3([0; 3].map(|_: i32| dice.between(0.5, 2.5))),
+            _ => argument(p, dice),
+        })
+        .collect()
+}
+
+/// `n` random instances of every primitive; profiles are extruded.
+pub fn instances(n: u64) -> Vec<(String, Arc<Node>)> {
+    let mut all = Vec::new();
+    for declaration in AnyPrimitive::DECLARATIONS {
+        let mut made = 0;
+        for seed in 0.. {
+            assert!(
+                seed < 1000,
+                "{}: no valid arguments found",
+                declaration.name
+            );
+            let mut dice = Dice::new(seed * 31 + declaration.name.len() as u64);
+            let arguments = arguments(declaration, &mut dice);
+            let primitive =
+                AnyPrimitive::from_arguments(declaration.name, &arguments).expect("listed by name");
+            let Ok(node) = Node::primitive(primitive) else {
+                continue;
+            };
+            let name = format!("{}{arguments:?}", declaration.name);
+            if node.traits().is_planar {
+                let extrude = AnyModifier::Extrude(Extrude::new(dice.between(0.2, 1.0)));
+                all.push((
+                    name,
+                    Node::modifier(extrude, node).expect("a profile can be extruded"),
+                ));
+            } else {
+                all.push((name, node));
+            }
+            made += 1;
+            if made == n {
+                break;
+            }
+        }
+    }
+    all
+}
+
+/// One random instance of every modifier.
+pub fn modifiers(dice: &mut Dice) -> Vec<AnyModifier> {
+    AnyModifier::DECLARATIONS
+        .iter()
+        .map(|d| AnyModifier::from_arguments(d.name, &arguments(d, dice)).expect("listed by name"))
+        .collect()
+}
+
+pub fn smooth(k: f64) -> AnyBlend {
+    AnyBlend::Smooth(Smooth::new(k))
+}
+
+/// A random tree of a few operations, named by its seed.
+pub fn random_tree(seed: u64) -> Option<(String, Arc<Node>)> {
+    let mut dice = Dice::new(seed ^ 0xabcd_ef01);
+    let leaves = instances(1);
+    let node = branch(&mut dice, &leaves, 4)?;
+    Some((format!("random tree {seed}"), node))
+}
+
+fn branch(dice: &mut Dice, leaves: &[(String, Arc<Node>)], depth: u32) -> Option<Arc<Node>> {
+    if depth == 0 || dice.unit() < 0.2 {
+        return Some(leaves[dice.below(leaves.len())].1.clone());
+    }
+    if dice.unit() < 0.5 {
+        let child = branch(dice, leaves, depth - 1)?;
+        let all = modifiers(dice);
+        let modifier = all[dice.below(all.len())].clone();
+        return Node::modifier(modifier, child.clone()).ok().or(Some(child));
+    }
+    let children: Option<Vec<_>> = (0..2 + dice.below(2))
+        .map(|_| branch(dice, leaves, depth - 1))
+        .collect();
+    let blend = if dice.unit() < 0.5 {
+        AnyBlend::HARD
+    } else {
+        smooth(dice.between(0.05, 0.4))
+    };
+    let operation = Operation::ALL[dice.below(3)].1;
+    Node::combination(Combination { operation, blend }, children?).ok()
+}
+
+/// Small asymmetric shapes and shapes larger than a cell, for repetition.
+pub fn nodes() -> Vec<(String, Arc<Node>)> {
+    let mut all = instances(2);
+    all.retain(|(_, node)| node.bounds().is_finite());
+    let shifted = all.iter().map(|(name, node)| {
+        let shift = AnyModifier::Translate(Translate::new([0.21, -0.13, 0.4]));
+        (
+            format!("{name} shifted"),
+            Node::modifier(shift, node.clone()).expect("anything moves"),
+        )
+    });
+    let shifted: Vec<_> = shifted.collect();
+    all.extend(shifted);
+    all
+}

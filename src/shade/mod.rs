@@ -1,1 +1,28 @@
-//! Under construction.
+//! Floor 5: the Whitted pipeline, by waves: rays to light.
+
+mod attenuation;
+mod census;
+mod features;
+mod fresnel;
+mod light;
+mod medium;
+mod meeting;
+mod offset;
+mod phong;
+mod reflect;
+mod refract;
+mod shadow;
+mod sky;
+mod surface;
+mod surfaces;
+mod wave;
+mod whitted;
+
+pub use census::Census;
+pub use features::Features;
+pub use fresnel::reflected_share;
+pub use reflect::reflected;
+pub use refract::refracted;
+pub use surface::Surface;
+pub use surfaces::Surfaces;
+pub use whitted::{FAINTEST, Light, Whitted};

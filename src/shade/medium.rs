@@ -1,0 +1,210 @@
+//! What a ray travels in: the solids that it has entered and not left.
+//!
+//! The innermost of them, entered last, decides how light bends and how much is absorbed. So water in glass bends by
+//! both indices at their boundary, and where two solids overlap, leaving the outer one while inside the inner one
+//! changes nothing.
+
+use super::Surface;
+use glam::DVec3;
+use std::sync::Arc;
+
+/// The index of refraction of empty space.
+const VACUUM: f64 = 1.0;
+
+/// A transparent solid as a ray meets it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Medium {
+    /// The part of the world.
+    pub part: u32,
+    /// Its material, by address.
+    pub material: usize,
+    /// The index of refraction, positive.
+    pub ior: f64,
+    /// The absorption, per scene unit and channel.
+    pub absorb: DVec3,
+}
+
+impl Medium {
+    /// The medium behind a `surface` of `part`.
+    pub fn new(part: u32, surface: &Surface) -> Self {
+        Self {
+            part,
+            material: surface.material,
+            ior: surface.ior,
+            absorb: surface.absorb,
+        }
+    }
+}
+
+/// The media around a ray, innermost first; cheap to clone.
+#[derive(Clone, Debug, Default)]
+pub struct Media(Option<Arc<Layer>>);
+
+#[derive(Debug)]
+struct Layer {
+    medium: Medium,
+    around: Media,
+}
+
+/// A ray that goes through a boundary.
+#[derive(Clone, Debug)]
+pub struct Crossing {
+    /// The index of refraction before the boundary.
+    pub n1: f64,
+    /// The index of refraction behind it.
+    pub n2: f64,
+    /// The media behind it.
+    pub beyond: Media,
+}
+
+impl Media {
+    /// The innermost medium; `None` in empty space.
+    pub fn innermost(&self) -> Option<&Medium> {
+        self.0.as_deref().map(|layer| &layer.medium)
+    }
+
+    /// The absorption here.
+    pub fn absorb(&self) -> DVec3 {
+        self.innermost().map_or(DVec3::ZERO, |medium| medium.absorb)
+    }
+
+    fn ior(&self) -> f64 {
+        self.innermost().map_or(VACUUM, |medium| medium.ior)
+    }
+
+    fn inside(&self, medium: Medium) -> Self {
+        let around = self.clone();
+        Self(Some(Arc::new(Layer { medium, around })))
+    }
+
+    /// The media without the innermost one for which `is_left`; `None` if there is none.
+    fn without(&self, is_left: &impl Fn(&Medium) -> bool) -> Option<Self> {
+        let layer = self.0.as_deref()?;
+        if is_left(&layer.medium) {
+            return Some(layer.around.clone());
+        }
+        let around = layer.around.without(is_left)?;
+        Some(around.inside(layer.medium))
+    }
+
+    /// Through a boundary of `medium`, into it or out of it.
+    pub fn across(&self, medium: Medium, is_entering: bool) -> Crossing {
+        if is_entering {
+            self.entering(medium)
+        } else {
+            self.leaving(medium)
+        }
+    }
+
+    /// Into `medium`.
+    pub fn entering(&self, medium: Medium) -> Crossing {
+        Crossing {
+            n1: self.ior(),
+            n2: medium.ior,
+            beyond: self.inside(medium),
+        }
+    }
+
+    /// Out of `medium`: the one entered with the same part, else with the same material. If none was entered, the ray
+    /// began inside of it, and leaves it for what is known to be around.
+    pub fn leaving(&self, medium: Medium) -> Crossing {
+        let same_part = |m: &Medium| m.part == medium.part;
+        let same_material = |m: &Medium| m.material == medium.material;
+        let left = self
+            .without(&same_part)
+            .or_else(|| self.without(&same_material));
+        match left {
+            Some(beyond) => Crossing {
+                n1: self.ior(),
+                n2: beyond.ior(),
+                beyond,
+            },
+            None => Crossing {
+                n1: medium.ior,
+                n2: self.ior(),
+                beyond: self.clone(),
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn medium(part: u32, ior: f64) -> Medium {
+        Medium {
+            part,
+            material: 100 + part as usize,
+            ior,
+            absorb: DVec3::splat(f64::from(part)),
+        }
+    }
+
+    fn indices(crossing: &Crossing) -> (f64, f64) {
+        (crossing.n1, crossing.n2)
+    }
+
+    #[test]
+    fn water_in_glass_bends_by_both_indices() {
+        let (glass, water) = (medium(1, 1.5), medium(2, 1.333));
+        let outer = Media::default().entering(glass);
+        let inner = outer.beyond.entering(water);
+        let back = inner.beyond.leaving(water);
+        let out = back.beyond.leaving(glass);
+        assert_eq!(indices(&outer), (1.0, 1.5));
+        assert_eq!(indices(&inner), (1.5, 1.333));
+        assert_eq!(indices(&back), (1.333, 1.5));
+        assert_eq!(indices(&out), (1.5, 1.0));
+        assert!(out.beyond.innermost().is_none());
+    }
+
+    #[test]
+    fn leaving_an_outer_solid_inside_an_inner_one_changes_nothing() {
+        let (glass, water) = (medium(1, 1.5), medium(2, 1.333));
+        let both = Media::default().entering(glass).beyond.entering(water);
+        let left = both.beyond.leaving(glass);
+        assert_eq!(indices(&left), (1.333, 1.333));
+        assert_eq!(left.beyond.innermost(), Some(&water));
+        assert_eq!(indices(&left.beyond.leaving(water)), (1.333, 1.0));
+    }
+
+    #[test]
+    fn overlapping_solids_of_one_material_are_one() {
+        let (a, b) = (medium(1, 1.5), medium(2, 1.5));
+        let both = Media::default().entering(a).beyond.entering(b);
+        let left = both.beyond.leaving(a);
+        assert_eq!((both.n1, both.n2), (1.5, 1.5));
+        assert_eq!(indices(&left), (1.5, 1.5));
+        assert_eq!(indices(&left.beyond.leaving(b)), (1.5, 1.0));
+    }
+
+    #[test]
+    fn a_ray_that_begins_inside_leaves_into_empty_space() {
+        let glass = medium(1, 1.5);
+        let out = Media::default().leaving(glass);
+        assert_eq!(indices(&out), (1.5, 1.0));
+        assert!(out.beyond.innermost().is_none());
+        let water = Media::default().entering(medium(2, 1.333)).beyond;
+        assert_eq!(indices(&water.leaving(glass)), (1.5, 1.333));
+    }
+
+    #[test]
+    fn another_part_of_the_same_material_can_be_left() {
+        let entry = medium(1, 1.5);
+        let exit = Medium { part: 7, ..entry };
+        let out = Media::default().entering(entry).beyond.leaving(exit);
+        assert!(out.beyond.innermost().is_none());
+    }
+
+    #[test]
+    fn absorption_is_that_of_the_innermost() {
+        let media = Media::default();
+        assert_eq!(media.absorb(), DVec3::ZERO);
+        let inner = media
+            .entering(medium(1, 1.5))
+            .beyond
+            .entering(medium(2, 1.3));
+        assert_eq!(inner.beyond.absorb(), DVec3::splat(2.0));
+    }
+}

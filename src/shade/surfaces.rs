@@ -1,0 +1,40 @@
+//! What shading asks of the world.
+
+use crate::scene::Material;
+use crate::trace::{Occlusion, Outcome, Paint, Ray, Visibility, World};
+use glam::DVec3;
+use std::sync::Arc;
+
+/// Surfaces that rays can find. The [`World`] is one; tests shade closed forms instead, so that the laws of light are
+/// checked apart from those of marching.
+pub trait Surfaces: Sync {
+    /// The first surface on each ray.
+    fn nearest(&self, rays: &[Ray], visibility: Visibility) -> Vec<Outcome>;
+
+    /// Whether any opaque surface lies on each ray; what casts a tinted shadow or none is passed over.
+    fn occluded(&self, rays: &[Ray]) -> Vec<Occlusion>;
+
+    /// The materials at a point of the surface of `part`, with their shares.
+    fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>>;
+
+    /// Every material that some part shows.
+    fn materials(&self) -> &[Arc<Material>];
+}
+
+impl Surfaces for World {
+    fn nearest(&self, rays: &[Ray], visibility: Visibility) -> Vec<Outcome> {
+        Self::nearest(self, rays, visibility)
+    }
+
+    fn occluded(&self, rays: &[Ray]) -> Vec<Occlusion> {
+        Self::occluded(self, rays)
+    }
+
+    fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>> {
+        Self::paints(self, part, point)
+    }
+
+    fn materials(&self) -> &[Arc<Material>] {
+        Self::materials(self)
+    }
+}

@@ -1,0 +1,152 @@
+//! The whole picture: tiles on threads.
+
+use super::film::Pixel;
+use super::statistics::{Layout, Tally};
+use super::tile::{Shared, Tile};
+use super::{Channel, Film, Statistics, View};
+use crate::scene::Scene;
+use crate::shade::{Surfaces, Whitted};
+use rayon::prelude::*;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// The stack of a thread: deep scenes recurse in their closures.
+const STACK_BYTES: usize = 16 << 20;
+
+/// How far a rendering is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Tiles that are done.
+    pub done: usize,
+    /// Tiles of the picture.
+    pub tiles: usize,
+}
+
+/// How a rendering is carried out; none of it changes a bit of the film.
+#[derive(Clone, Copy)]
+pub struct RenderOptions<'a> {
+    /// What is recorded.
+    pub channels: &'a [Channel],
+    /// How many threads work; 0 for one on each processor.
+    pub threads: usize,
+    /// How wide and high a tile is, in pixels; at least 1.
+    pub tile: u32,
+    /// Is told after each tile, by whichever thread rendered it.
+    pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
+    /// Ends the rendering once it is true.
+    pub cancel: Option<&'a AtomicBool>,
+}
+
+impl Default for RenderOptions<'_> {
+    fn default() -> Self {
+        Self {
+            channels: &[Channel::Beauty],
+            threads: 0,
+            tile: 64,
+            progress: None,
+            cancel: None,
+        }
+    }
+}
+
+impl RenderOptions<'_> {
+    fn is_cancelled(&self) -> bool {
+        self.cancel.is_some_and(|c| c.load(Ordering::Relaxed))
+    }
+}
+
+/// A finished rendering.
+#[derive(Clone, Debug)]
+pub struct Rendered {
+    /// What was recorded.
+    pub film: Film,
+    /// What it took.
+    pub statistics: Statistics,
+    /// Whether it was cancelled: then some tiles are black.
+    pub cancelled: bool,
+}
+
+/// The picture of `scene`, whose shapes are compiled into `world`. The film and all counts are the same to the bit for any
+/// number of threads and size of tiles.
+pub fn render<S: Surfaces + ?Sized>(scene: &Scene, world: &S, options: &RenderOptions) -> Rendered {
+    let start = Instant::now();
+    let settings = &scene.settings;
+    let shared = Shared {
+        whitted: Whitted::new(scene, world),
+        view: View::new(&scene.camera, settings.size),
+        settings,
+        wants_beauty: options.channels.contains(&Channel::Beauty),
+        wants_color: options.channels.contains(&Channel::Color),
+    };
+    let tiles = Tile::all(settings.size, options.tile.max(1));
+    let result = Mutex::new(Recording {
+        film: Film::new(settings.size, options.channels),
+        tally: Tally::default(),
+        done: 0,
+    });
+    let work = |tile: &Tile| {
+        if options.is_cancelled() {
+            return;
+        }
+        let (pixels, cost) = tile.render(&shared);
+        let done = match result.lock() {
+            Ok(mut recording) => recording.add(tile, &pixels, cost),
+            // Another thread panicked; rayon passes that on.
+            Err(_) => return,
+        };
+        if let Some(progress) = options.progress {
+            progress(Progress {
+                done,
+                tiles: tiles.len(),
+            });
+        }
+    };
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(options.threads)
+        .stack_size(STACK_BYTES)
+        .build();
+    // Where the system grants no threads, this one does the work.
+    let threads = match pool {
+        Ok(pool) => {
+            pool.install(|| tiles.par_iter().for_each(work));
+            pool.current_num_threads()
+        }
+        Err(_) => {
+            tiles.iter().for_each(work);
+            1
+        }
+    };
+    let Recording { film, tally, done } = result
+        .into_inner()
+        .unwrap_or_else(|poisoned| poisoned.into_inner());
+    Rendered {
+        film,
+        statistics: tally.statistics(Layout {
+            size: settings.size,
+            samples: settings.samples.max(1),
+            threads,
+            wall: start.elapsed(),
+        }),
+        cancelled: done < tiles.len(),
+    }
+}
+
+/// What the tiles recorded so far. Every pixel is recorded once and counts only add up, so the order does not matter.
+struct Recording {
+    film: Film,
+    tally: Tally,
+    done: usize,
+}
+
+impl Recording {
+    /// Adds a tile, and gives how many there are now.
+    fn add(&mut self, tile: &Tile, pixels: &[Pixel], cost: Tally) -> usize {
+        for ([i, j], pixel) in tile.pixels.iter().zip(pixels) {
+            self.film.record(*i, *j, pixel);
+        }
+        self.tally += cost;
+        self.done += 1;
+        self.done
+    }
+}

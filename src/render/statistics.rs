@@ -1,0 +1,219 @@
+//! What a rendering did, in numbers.
+
+use crate::shade::Census;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::ops::AddAssign;
+use std::time::Duration;
+
+/// The version of the layout of [`Statistics`] in files.
+const SCHEMA: u32 = 1;
+
+/// What a rendering did. All but the times is the same for any number of threads.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Statistics {
+    /// The version of this layout.
+    pub schema: u32,
+    /// Width and height, in pixels.
+    pub size: [u32; 2],
+    /// Rays per pixel.
+    pub samples: u32,
+    /// How many threads worked.
+    pub threads: usize,
+    /// Rays by kind.
+    pub rays: Rays,
+    /// What became of the camera rays.
+    pub primary: Verdicts,
+    /// Rays of all other kinds whose tracing ended without an answer.
+    pub unknown_secondary: u64,
+    /// Pixels of which some ray ended without an answer.
+    pub unknown_pixels: u64,
+    /// The steps of camera rays.
+    pub steps: Steps,
+    /// Evaluations of fields, by rays of all kinds.
+    pub evaluations: u64,
+    /// Times.
+    pub milliseconds: Milliseconds,
+}
+
+/// Rays by kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Rays {
+    /// From the camera.
+    pub primary: u64,
+    /// To lights.
+    pub shadow: u64,
+    /// Mirrored.
+    pub reflected: u64,
+    /// Into or out of transparent solids.
+    pub refracted: u64,
+    /// Not traced, because they lay deeper than the limit.
+    pub too_deep: u64,
+    /// Not traced, because they weighed too little.
+    pub too_faint: u64,
+}
+
+/// Verdicts of rays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Verdicts {
+    /// They met a surface.
+    pub hits: u64,
+    /// They met none.
+    pub misses: u64,
+    /// The tracer could not tell.
+    pub unknown: u64,
+}
+
+/// Steps a ray.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Steps {
+    /// Their mean.
+    pub mean: f64,
+    /// The number that 99 % of the rays don't exceed.
+    pub p99: u32,
+    /// The largest number.
+    pub max: u32,
+    /// Numbers of steps that occurred, each with its number of rays.
+    pub histogram: Vec<(u32, u64)>,
+}
+
+/// Times in milliseconds. Tracing and shading are processor times, summed over the threads.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Milliseconds {
+    /// Finding surfaces, by rays of all kinds.
+    pub trace: f64,
+    /// Everything else in the tiles: camera, materials, light.
+    pub shade: f64,
+    /// From the first tile to the last, as a clock shows it.
+    pub wall: f64,
+}
+
+/// How many rays took how many steps.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Histogram(BTreeMap<u32, u64>);
+
+impl Histogram {
+    /// Counts a ray.
+    pub fn add(&mut self, steps: u32) {
+        *self.0.entry(steps).or_default() += 1;
+    }
+
+    /// The summary; zeros where no ray was counted.
+    fn summary(&self) -> Steps {
+        let rays: u64 = self.0.values().sum();
+        let steps: u128 = self
+            .0
+            .iter()
+            .map(|(s, n)| u128::from(*s) * u128::from(*n))
+            .sum();
+        let mean = if rays == 0 {
+            0.0
+        } else {
+            steps as f64 / rays as f64
+        };
+        let enough = rays - rays / 100;
+        let mut seen = 0;
+        let p99 = self.0.iter().find(|(_, n)| {
+            seen += **n;
+            seen >= enough
+        });
+        Steps {
+            mean,
+            p99: p99.map_or(0, |(s, _)| *s),
+            max: self.0.keys().next_back().copied().unwrap_or(0),
+            histogram: self.0.iter().map(|(s, n)| (*s, *n)).collect(),
+        }
+    }
+}
+
+/// What tiles add up.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    /// Counts of rays, and the time inside of the tracer.
+    pub census: Census,
+    /// Steps of camera rays.
+    pub steps: Histogram,
+    /// Pixels of which some ray ended without an answer.
+    pub unknown_pixels: u64,
+    /// The time in tiles.
+    pub busy: Duration,
+}
+
+impl AddAssign for Tally {
+    fn add_assign(&mut self, other: Self) {
+        self.census += other.census;
+        for (steps, rays) in other.steps.0 {
+            *self.steps.0.entry(steps).or_default() += rays;
+        }
+        self.unknown_pixels += other.unknown_pixels;
+        self.busy += other.busy;
+    }
+}
+
+/// How the work was laid out.
+#[derive(Clone, Copy, Debug)]
+pub struct Layout {
+    /// Width and height, in pixels.
+    pub size: [u32; 2],
+    /// Rays per pixel.
+    pub samples: u32,
+    /// How many threads worked.
+    pub threads: usize,
+    /// How long it took.
+    pub wall: Duration,
+}
+
+impl Tally {
+    /// The statistics of a rendering.
+    pub fn statistics(&self, layout: Layout) -> Statistics {
+        let c = &self.census;
+        let milliseconds = |time: Duration| time.as_secs_f64() * 1e3;
+        Statistics {
+            schema: SCHEMA,
+            size: layout.size,
+            samples: layout.samples,
+            threads: layout.threads,
+            rays: Rays {
+                primary: c.primary,
+                shadow: c.shadow,
+                reflected: c.reflected,
+                refracted: c.refracted,
+                too_deep: c.too_deep,
+                too_faint: c.too_faint,
+            },
+            primary: Verdicts {
+                hits: c.hits,
+                misses: c.misses,
+                unknown: c.unknown,
+            },
+            unknown_secondary: c.unknown_secondary,
+            unknown_pixels: self.unknown_pixels,
+            steps: self.steps.summary(),
+            evaluations: c.evaluations,
+            milliseconds: Milliseconds {
+                trace: milliseconds(c.tracing),
+                shade: milliseconds(self.busy.saturating_sub(c.tracing)),
+                wall: milliseconds(layout.wall),
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn summary_of_a_known_distribution() {
+        let mut histogram = Histogram::default();
+        (1..=100).for_each(|steps| histogram.add(steps));
+        let steps = histogram.summary();
+        assert_eq!((steps.mean, steps.p99, steps.max), (50.5, 99, 100));
+    }
+
+    #[test]
+    fn summary_of_nothing_is_zero() {
+        let steps = Histogram::default().summary();
+        assert_eq!((steps.mean, steps.p99, steps.max), (0.0, 0, 0));
+    }
+}

@@ -1,0 +1,224 @@
+//! The camera's rays.
+//!
+//! Pixel (i, j) of a W x H picture lies on the screen at `x = s 2 (i - (W-1)/2) / (W-1)`, `y = t 2 ((H-1)/2 - j) / (H-1)`
+//! with `t = tan(fov/2)` and `s/t = (W-1)/(H-1)`, so that the centres of the outermost pixels lie on its edges. A
+//! picture of one column or row has it in the middle.
+
+use crate::scene::{Camera, Projection};
+use crate::trace::{Footprint, Ray};
+use glam::DVec3;
+
+/// A camera in front of a grid of pixels.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    eye: DVec3,
+    right: DVec3,
+    up: DVec3,
+    forward: DVec3,
+    is_parallel: bool,
+    /// The middle of the picture, in pixels.
+    middle: [f64; 2],
+    /// The width and height of a pixel on the screen.
+    pixel: [f64; 2],
+}
+
+impl View {
+    /// The view of `camera` on a picture of `size` (width and height in pixels).
+    pub fn new(camera: &Camera, size: [u32; 2]) -> Self {
+        let (is_parallel, half_height) = match camera.projection {
+            Projection::Perspective { fov } => (false, libm::tan(fov / 2.0)),
+            Projection::Orthographic { height } => (true, height / 2.0),
+        };
+        // A picture of one column or row is as wide or high as one of two.
+        let [columns, rows] = size.map(|n| f64::from(n.max(2) - 1));
+        let [s, t] = camera
+            .screen
+            .unwrap_or([half_height * columns / rows, half_height]);
+        let [right, up, forward] = axes(camera);
+        Self {
+            eye: camera.eye,
+            right,
+            up,
+            forward,
+            is_parallel,
+            middle: size.map(|n| (f64::from(n) - 1.0) / 2.0),
+            pixel: [2.0 * s / columns, 2.0 * t / rows],
+        }
+    }
+
+    /// The place on the screen of column `i` and row `j`, which may lie between pixels: in units of the distance to the
+    /// screen for a perspective, in scene units otherwise.
+    pub fn screen(&self, i: f64, j: f64) -> [f64; 2] {
+        [
+            self.pixel[0] * (i - self.middle[0]),
+            self.pixel[1] * (self.middle[1] - j),
+        ]
+    }
+
+    /// The ray through column `i` and row `j`, which may lie between pixels.
+    pub fn ray(&self, i: f64, j: f64) -> Ray {
+        let [x, y] = self.screen(i, j);
+        let aside = self.right * x + self.up * y;
+        // The narrower side of a pixel is what details are measured by.
+        let width = self.pixel[0].min(self.pixel[1]);
+        if self.is_parallel {
+            return Ray {
+                origin: self.eye + aside,
+                direction: self.forward,
+                t_max: f64::INFINITY,
+                footprint: Footprint {
+                    at_origin: width,
+                    spread: 0.0,
+                },
+            };
+        }
+        Ray {
+            origin: self.eye,
+            direction: (self.forward + aside).normalize(),
+            t_max: f64::INFINITY,
+            footprint: Footprint {
+                at_origin: 0.0,
+                spread: width,
+            },
+        }
+    }
+}
+
+/// Right, up and forward: unit vectors at right angles. An `up` along the line of sight gives no direction; then the axis
+/// that is farthest from it does. A camera that looks at its own place looks along -z.
+fn axes(camera: &Camera) -> [DVec3; 3] {
+    let forward = (camera.at - camera.eye)
+        .try_normalize()
+        .unwrap_or(DVec3::NEG_Z);
+    let side = |up: DVec3| forward.cross(up.normalize_or_zero());
+    // Below a part in 10^12 of the lengths, the cross product is rounding.
+    let is_aligned = |side: DVec3| side.length_squared() < 1e-24 || side.is_nan();
+    let across = match side(camera.up) {
+        across if is_aligned(across) => {
+            let steepest = forward.abs();
+            if steepest.y <= steepest.z {
+                side(DVec3::Y)
+            } else {
+                side(DVec3::NEG_Z)
+            }
+        }
+        across => across,
+    };
+    let right = across.normalize();
+    [right, right.cross(forward), forward]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn camera() -> Camera {
+        Camera {
+            eye: DVec3::new(0.0, 0.0, 5.0),
+            at: DVec3::ZERO,
+            up: DVec3::Y,
+            projection: Projection::Perspective {
+                fov: 90f64.to_radians(),
+            },
+            screen: None,
+        }
+    }
+
+    fn near(a: [f64; 2], b: [f64; 2]) -> bool {
+        (a[0] - b[0]).abs() < 1e-14 && (a[1] - b[1]).abs() < 1e-14
+    }
+
+    #[test]
+    fn corner_pixels_lie_on_the_corners_of_the_screen() {
+        let view = View::new(&camera(), [641, 361]);
+        let s = 640.0 / 360.0;
+        assert!(near(view.screen(0.0, 0.0), [-s, 1.0]));
+        assert!(near(view.screen(640.0, 0.0), [s, 1.0]));
+        assert!(near(view.screen(0.0, 360.0), [-s, -1.0]));
+        assert!(near(view.screen(640.0, 360.0), [s, -1.0]));
+        assert!(near(view.screen(320.0, 180.0), [0.0, 0.0]));
+    }
+
+    #[test]
+    fn the_scripts_screen_takes_the_place_of_the_angle() {
+        let view = View::new(
+            &Camera {
+                screen: Some([0.75, 0.5]),
+                ..camera()
+            },
+            [100, 100],
+        );
+        assert!(near(view.screen(99.0, 0.0), [0.75, 0.5]));
+    }
+
+    #[test]
+    fn single_rows_and_columns_are_in_the_middle() {
+        for size in [[1, 1], [1, 8], [8, 1]] {
+            let view = View::new(&camera(), size);
+            let [x, y] = view.screen(0.0, 0.0);
+            assert!(size[0] > 1 || x == 0.0);
+            assert!(size[1] > 1 || y == 0.0);
+            assert!(view.ray(0.0, 0.0).direction.is_normalized());
+        }
+    }
+
+    #[test]
+    fn rays_diverge_by_the_angle_of_view() {
+        let view = View::new(&camera(), [101, 101]);
+        let (top, bottom) = (view.ray(50.0, 0.0), view.ray(50.0, 100.0));
+        assert!(
+            top.direction.dot(bottom.direction).abs() < 1e-15,
+            "90 degrees"
+        );
+        assert!(top.direction.y > 0.0);
+        assert!(view.ray(100.0, 50.0).direction.x > 0.0);
+        assert!(
+            view.ray(50.0, 50.0)
+                .direction
+                .abs_diff_eq(DVec3::NEG_Z, 1e-15)
+        );
+    }
+
+    #[test]
+    fn parallel_rays_start_a_screen_apart() {
+        let view = View::new(
+            &Camera {
+                projection: Projection::Orthographic { height: 4.0 },
+                ..camera()
+            },
+            [201, 101],
+        );
+        let (low, high) = (view.ray(0.0, 100.0), view.ray(200.0, 0.0));
+        assert_eq!(low.direction, high.direction);
+        assert!((high.origin - low.origin).abs_diff_eq(DVec3::new(8.0, 4.0, 0.0), 1e-14));
+        assert_eq!(low.footprint.at(0.0), low.footprint.at(1e6));
+    }
+
+    #[test]
+    fn footprint_is_the_distance_between_neighbours() {
+        let view = View::new(&camera(), [101, 101]);
+        let (a, b) = (view.ray(50.0, 50.0), view.ray(51.0, 50.0));
+        let apart = (a.at(3.0) - b.at(3.0)).length();
+        assert!((a.footprint.at(3.0) / apart - 1.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn looking_along_up_still_gives_a_view() {
+        for at in [DVec3::new(0.0, -1.0, 5.0), DVec3::new(0.0, 7.0, 5.0)] {
+            let view = View::new(&Camera { at, ..camera() }, [9, 9]);
+            let ray = view.ray(1.0, 2.0);
+            assert!(ray.direction.is_normalized());
+        }
+        let blind = Camera {
+            at: camera().eye,
+            up: DVec3::ZERO,
+            ..camera()
+        };
+        assert!(
+            View::new(&blind, [9, 9])
+                .ray(1.0, 2.0)
+                .direction
+                .is_normalized()
+        );
+    }
+}

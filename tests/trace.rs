@@ -512,3 +512,47 @@ fn scaling_by_a_power_of_two_keeps_the_bits() {
         }
     }
 }
+
+/// The gyroid with `cells` cells in a unit, as a script would write it.
+fn gyroid(cells: f64) -> fieldstone::scene::Graph {
+    use fieldstone::scene::GraphBuilder;
+    let mut b = GraphBuilder::new();
+    let k = b.constant(cells * std::f64::consts::PI);
+    let q = b.point().map(|c| b.multiply(c, k));
+    let s = q.map(|c| b.call(Function::Sin, &[c]));
+    let c = q.map(|c| b.call(Function::Cos, &[c]));
+    let terms = [0, 1, 2].map(|i| b.multiply(s[i], c[(i + 1) % 3]));
+    let sum = b.add(terms[0], terms[1]);
+    let sum = b.add(sum, terms[2]);
+    let f = b.divide(sum, k);
+    b.finish(&[f])
+}
+
+#[test]
+fn constant_of_the_gyroid_is_derived() {
+    use fieldstone::scene::FieldShape;
+    let graph = gyroid(5.0);
+    let field = Node::field(FieldShape {
+        name: "gyroid".into(),
+        graph,
+        claimed: None,
+    })
+    .expect("a field");
+    // The largest slope is sqrt 3, at the origin.
+    let exact = 3f64.sqrt();
+    assert!(
+        field.lipschitz() >= exact && field.lipschitz() <= 1.04 * exact,
+        "{}",
+        field.lipschitz()
+    );
+    let core = combined(
+        Operation::Intersection,
+        AnyBlend::HARD,
+        &[field, sphere(0.9)],
+    );
+    assert!(
+        core.lipschitz() >= exact && core.lipschitz() <= 1.8,
+        "{}",
+        core.lipschitz()
+    );
+}

@@ -6,10 +6,10 @@ use crate::num::{Dual, Interval, Vec3};
 use std::collections::BinaryHeap;
 
 /// How many boxes the derivation of one constant may look at.
-const MAX_BOXES: usize = 2048;
+const MAX_BOXES: usize = 32_768;
 
-/// The derivation ends when the constant is known this closely: within 5 %.
-const ENOUGH: f64 = 1.05;
+/// The derivation ends when the constant is known this closely: within 3 %.
+const ENOUGH: f64 = 1.03;
 
 /// A claim about a slope that a point refutes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,12 +43,17 @@ fn slope_at(graph: &Graph, p: [f64; 3]) -> f64 {
     field.partial.iter().fold(0.0, |n: f64, d| n.hypot(*d))
 }
 
-/// A Lipschitz constant of the graph's first output on `region`: the largest gradient, at most 5 % above it where
+/// A Lipschitz constant of the graph's first output on `region`: the largest gradient, at most 3 % above it where
 /// [`MAX_BOXES`] allow; infinite where none is known.
 pub(super) fn lipschitz_of_graph(graph: &Graph, region: Bounds) -> f64 {
     if region.is_empty() {
         return 0.0;
     }
+    let region = one_period(region, graph.periods());
+    graph.remembered(region, || derived(graph, region))
+}
+
+fn derived(graph: &Graph, region: Bounds) -> f64 {
     let first = Cell {
         bound: gradient_bound(graph, region),
         region,
@@ -82,6 +87,22 @@ pub(super) fn lipschitz_of_graph(graph: &Graph, region: Bounds) -> f64 {
         }
     }
     cells.peek().map_or(f64::INFINITY, |cell| cell.bound)
+}
+
+/// The part of a region that shows every slope of a graph with these periods: one period along each axis, and a little
+/// more for rounding.
+fn one_period(region: Bounds, periods: [Option<f64>; 3]) -> Bounds {
+    let mut part = region;
+    for (axis, period) in periods.iter().enumerate() {
+        let Some(period) = period else { continue };
+        let length = period * (1.0 + 1e-9);
+        if region.high[axis] - region.low[axis] > length {
+            // The period around the origin, where coordinates are exact; so all large regions are one.
+            let low = -0.5 * length;
+            (part.low[axis], part.high[axis]) = (low, low + length);
+        }
+    }
+    part
 }
 
 /// A point in `region` where the field is steeper than `claimed`, if sampling finds one. Infinite sides are sampled up

@@ -4,18 +4,26 @@
 //! are shared, constants are folded, and an `if` on the point becomes a select. Evaluation is a walk over a list.
 
 use super::Node;
-use crate::catalogue::Function;
+use super::period::period;
+use crate::catalogue::{Bounds, Function};
 use crate::num::{Number, Vec3};
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// A value inside a [`GraphBuilder`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Id(u32);
 
+impl Id {
+    /// The place of its operation in the list.
+    pub(super) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
 /// One operation; operands come before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Op {
+pub(super) enum Op {
     /// A constant, by its bits.
     Constant(u64),
     /// Component x, y or z of the point.
@@ -200,12 +208,15 @@ impl GraphBuilder {
             ops.push(op.with_operands(|id| place[id.0 as usize]));
         }
         let outputs: Vec<Id> = outputs.iter().map(|id| place[id.0 as usize]).collect();
+        let periods = [0, 1, 2].map(|axis| period(&ops, &outputs, axis));
         let (steps, registers, outputs) = allocate(&ops, &outputs);
         Graph {
             steps,
             registers,
             outputs,
             shapes: self.shapes.clone(),
+            periods,
+            derived: Arc::default(),
         }
     }
 
@@ -322,6 +333,8 @@ pub struct Graph {
     registers: usize,
     outputs: Vec<u32>,
     shapes: Vec<Arc<Node>>,
+    periods: [Option<f64>; 3],
+    derived: Arc<Mutex<Vec<(Bounds, f64)>>>,
 }
 
 impl Graph {
@@ -333,6 +346,22 @@ impl Graph {
     /// The shapes whose fields the graph uses, by number.
     pub fn shapes(&self) -> &[Arc<Node>] {
         &self.shapes
+    }
+
+    /// What `derive` gives for a region: found once, and then remembered with all clones of the graph.
+    pub(super) fn remembered(&self, region: Bounds, derive: impl FnOnce() -> f64) -> f64 {
+        let mut known = self.derived.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, lipschitz)) = known.iter().find(|(r, _)| *r == region) {
+            return *lipschitz;
+        }
+        let lipschitz = derive();
+        known.push((region, lipschitz));
+        lipschitz
+    }
+
+    /// After what length along each axis the derivatives repeat themselves, where they do; 0 where they do not change.
+    pub fn periods(&self) -> [Option<f64>; 3] {
+        self.periods
     }
 
     /// How many operations there are.

@@ -8,6 +8,7 @@ mod graph;
 mod light;
 mod material;
 mod node;
+mod period;
 mod settings;
 mod tracer;
 

@@ -1,0 +1,341 @@
+//! Laws of pictures: what must not change a bit, and what the channels say, on marched and analytic shapes.
+
+use fieldstone::catalogue::*;
+use fieldstone::output::{Metadata, picture, save};
+use fieldstone::render::{Channel, Film, Progress, RenderOptions, Rendered, render};
+use fieldstone::scene::{
+    Camera, Falloff, Fog, Light, Material, Node, Projection, Scene, Shadow, Sky, Source, Term,
+};
+use fieldstone::trace::World;
+use glam::DVec3;
+use std::sync::Arc;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+fn leaf(primitive: AnyPrimitive) -> Arc<Node> {
+    Node::primitive(primitive).expect("a valid primitive")
+}
+
+fn moved(child: Arc<Node>, by: [f64; 3]) -> Arc<Node> {
+    Node::modifier(AnyModifier::Translate(Translate::new(by)), child).expect("a valid modifier")
+}
+
+fn sphere(radius: f64, at: [f64; 3]) -> Arc<Node> {
+    moved(leaf(AnyPrimitive::Sphere(Sphere::new(radius))), at)
+}
+
+fn material(reflect: f64, refract: f64) -> Arc<Material> {
+    Arc::new(Material {
+        color: Term::Constant(DVec3::new(0.7, 0.4, 0.2)),
+        reflect: Term::Constant(reflect),
+        refract: Term::Constant(refract),
+        fresnel: refract > 0.0,
+        shadow: if refract > 0.0 {
+            Shadow::Tinted
+        } else {
+            Shadow::Opaque
+        },
+        ..Material::default()
+    })
+}
+
+/// A mirror, a glass torus and a blend over a ground, two lights, sky and thin fog; lengths times `scale`.
+fn scene(scale: f64) -> Scene {
+    let s = |x: f64| x * scale;
+    let torus = leaf(AnyPrimitive::Torus(Torus::new(s(0.8), s(0.3))));
+    let blend = Node::combination(
+        Combination {
+            operation: Operation::Union,
+            blend: AnyBlend::Smooth(Smooth::new(s(0.4))),
+        },
+        vec![
+            sphere(s(0.6), [s(0.1), s(0.7), s(-1.0)]),
+            sphere(s(0.5), [s(0.8), s(1.0), s(-1.0)]),
+        ],
+    )
+    .expect("a valid blend");
+    let ground = leaf(AnyPrimitive::Plane(Plane::new([0.0, 1.0, 0.0], 0.0)));
+    let mut scene = Scene {
+        shown: vec![
+            ground.painted(material(0.1, 0.0)),
+            moved(torus, [0.0, s(0.31), s(1.0)]).painted(material(0.1, 0.8)),
+            blend.painted(material(0.0, 0.0)),
+            sphere(s(0.7), [s(-1.6), s(0.7), 0.0]).painted(material(0.8, 0.0)),
+        ],
+        lights: vec![
+            Light {
+                source: Source::Point {
+                    position: DVec3::new(5.0, 8.0, 3.0) * scale,
+                    falloff: Falloff::None,
+                },
+                radiance: DVec3::splat(0.7),
+            },
+            Light {
+                source: Source::Directional {
+                    toward: DVec3::new(-1.0, 2.0, 1.0).normalize(),
+                },
+                radiance: DVec3::splat(0.4),
+            },
+        ],
+        camera: Camera {
+            eye: DVec3::new(0.0, 2.0, 6.0) * scale,
+            at: DVec3::new(0.0, 0.6, 0.0) * scale,
+            ..Camera::default()
+        },
+        sky: Sky {
+            horizon: DVec3::new(0.8, 0.85, 0.9),
+            zenith: DVec3::new(0.2, 0.4, 0.8),
+        },
+        fog: Some(Fog {
+            color: DVec3::splat(0.8),
+            density: 0.02 / scale,
+        }),
+        ..Scene::default()
+    };
+    scene.settings.size = [75, 50];
+    scene
+}
+
+fn rendered(scene: &Scene, options: &RenderOptions) -> Rendered {
+    let world = World::new(scene).expect("a world");
+    render(scene, &world, options)
+}
+
+fn everything() -> RenderOptions<'static> {
+    RenderOptions {
+        channels: &Channel::ALL,
+        ..RenderOptions::default()
+    }
+}
+
+#[test]
+fn film_and_counts_do_not_depend_on_threads_or_tiles() {
+    let mut scene = scene(1.0);
+    scene.settings.samples = 2;
+    let reference = rendered(&scene, &everything());
+    for (threads, tile) in [(1, 64), (2, 64), (3, 64), (1, 16), (2, 17), (3, 1)] {
+        let other = rendered(
+            &scene,
+            &RenderOptions {
+                threads,
+                tile,
+                ..everything()
+            },
+        );
+        assert_eq!(
+            other.film, reference.film,
+            "{threads} threads, tiles of {tile}"
+        );
+        let (a, b) = (&other.statistics, &reference.statistics);
+        assert_eq!((a.rays, a.primary, &a.steps), (b.rays, b.primary, &b.steps));
+        assert_eq!(a.evaluations, b.evaluations);
+    }
+}
+
+#[test]
+fn scaling_everything_by_a_power_of_two_keeps_the_picture() {
+    let beauty = |scale| rendered(&scene(scale), &RenderOptions::default()).film;
+    let one = beauty(1.0);
+    for k in [-40, 40] {
+        assert_eq!(beauty(2f64.powi(k)), one, "2^{k}");
+    }
+}
+
+#[test]
+fn every_ray_has_an_answer_and_light() {
+    let picture = rendered(&scene(1.0), &everything());
+    let s = &picture.statistics;
+    assert_eq!((s.primary.unknown, s.unknown_secondary), (0, 0));
+    assert_eq!(s.unknown_pixels, 0);
+    let beauty = picture.film.plane(Channel::Beauty).unwrap();
+    assert!(beauty.values.iter().all(|x| x.is_finite() && *x >= 0.0));
+}
+
+#[test]
+fn counts_add_up() {
+    let mut scene = scene(1.0);
+    scene.settings.samples = 3;
+    let s = rendered(&scene, &everything()).statistics;
+    assert_eq!(s.rays.primary, 75 * 50 * 3);
+    let p = s.primary;
+    assert_eq!(p.hits + p.misses + p.unknown, s.rays.primary);
+    let rays: u64 = s.steps.histogram.iter().map(|(_, rays)| rays).sum();
+    assert_eq!(rays, s.rays.primary);
+    assert!(s.rays.shadow > 0 && s.rays.reflected > 0 && s.rays.refracted > 0);
+}
+
+/// One ball of radius 1 at the origin, seen from (0, 0, 4), by light from the camera.
+fn lone_ball(projection: Projection) -> Scene {
+    let mut scene = Scene {
+        shown: vec![sphere(1.0, [0.0; 3])],
+        lights: vec![Light {
+            source: Source::Directional { toward: DVec3::Z },
+            radiance: DVec3::ONE,
+        }],
+        camera: Camera {
+            eye: DVec3::new(0.0, 0.0, 4.0),
+            at: DVec3::ZERO,
+            projection,
+            ..Camera::default()
+        },
+        ..Scene::default()
+    };
+    scene.settings.size = [101, 101];
+    scene
+}
+
+fn at(film: &Film, channel: Channel, i: u32, j: u32) -> f64 {
+    f64::from(film.at(channel, i, j)[0])
+}
+
+#[test]
+fn channels_say_what_a_ball_is() {
+    let ball = lone_ball(Projection::Orthographic { height: 4.0 });
+    let film = rendered(&ball, &everything()).film;
+    for (i, j) in [(50, 50), (60, 40), (30, 55), (50, 74)] {
+        let [x, y] = [0.04 * (f64::from(i) - 50.0), 0.04 * (50.0 - f64::from(j))];
+        let z = (1.0 - x * x - y * y).sqrt();
+        assert!((at(&film, Channel::Depth, i, j) - (4.0 - z)).abs() < 1e-6);
+        let normal = film.at(Channel::Normal, i, j).to_vec();
+        for (n, expected) in normal.iter().zip([x, y, z]) {
+            assert!((f64::from(*n) - expected).abs() < 1e-6);
+        }
+        assert_eq!(at(&film, Channel::Verdict, i, j), 1.0);
+        assert_eq!(at(&film, Channel::Object, i, j), 0.0);
+        // Lambert and Phong under light from the eye: R.V = cos(2a) with cos(a) = z.
+        let gray = at(&film, Channel::Color, i, j);
+        let shine = (2.0 * z * z - 1.0).max(0.0).powi(32);
+        let seen = 0.1 * gray + 0.8 * gray * z + 0.2 * shine;
+        assert!((at(&film, Channel::Beauty, i, j) - seen).abs() < 1e-6);
+    }
+    assert_eq!(at(&film, Channel::Depth, 0, 0), f64::INFINITY);
+    assert_eq!(at(&film, Channel::Verdict, 0, 0), 0.0);
+    assert_eq!(at(&film, Channel::Object, 0, 0), -1.0);
+}
+
+#[test]
+fn a_ball_covers_the_area_of_its_silhouette() {
+    // tan of the half angle is 1 / sqrt(15); pixels are 2 tan(fov/2) / 400 apart.
+    let fov = 40f64.to_radians();
+    let mut ball = lone_ball(Projection::Perspective { fov });
+    ball.settings.size = [401, 401];
+    let film = rendered(&ball, &everything()).film;
+    let hits = film.plane(Channel::Verdict).unwrap().values.iter();
+    let hits: f64 = hits.map(|v| f64::from(*v)).sum();
+    let radius = 200.0 / ((fov / 2.0).tan() * 15f64.sqrt());
+    let area = std::f64::consts::PI * radius * radius;
+    // Gauss's circle: the count is off by less than the circumference, in practice by its square root.
+    assert!(
+        (hits - area).abs() < 4.0 * radius.sqrt(),
+        "{hits} of {area}"
+    );
+}
+
+#[test]
+fn more_samples_converge_to_the_covered_share() {
+    // A bright half-space that covers the lower half of the middle row.
+    let mut half = lone_ball(Projection::Orthographic { height: 1.0 });
+    let bright = Arc::new(Material {
+        color: Term::Constant(DVec3::ONE),
+        ambient: Term::Constant(1.0),
+        diffuse: Term::Constant(0.0),
+        specular: Term::Constant(0.0),
+        ..Material::default()
+    });
+    let bar = leaf(AnyPrimitive::Cuboid(Cuboid::new([9.0, 2.0, 2.0], 0.0)));
+    half.shown = vec![moved(bar, [0.0, -1.0, 0.0]).painted(bright)];
+    half.settings.size = [3, 3];
+    half.settings.samples = 256;
+    let film = rendered(&half, &everything()).film;
+    for i in 0..3 {
+        assert!((at(&film, Channel::Beauty, i, 1) - 0.5).abs() < 0.02);
+    }
+}
+
+#[test]
+fn seeds_move_samples_and_one_sample_has_none() {
+    let beauty = |samples, seed| {
+        let mut scene = scene(1.0);
+        (scene.settings.samples, scene.settings.seed) = (samples, seed);
+        rendered(&scene, &RenderOptions::default()).film
+    };
+    assert_eq!(beauty(1, 1), beauty(1, 2));
+    assert_ne!(beauty(2, 1), beauty(2, 2));
+}
+
+#[test]
+fn progress_counts_every_tile_once() {
+    let seen = Mutex::new(Vec::new());
+    let note = |progress: Progress| seen.lock().unwrap().push((progress.done, progress.tiles));
+    let options = RenderOptions {
+        tile: 16,
+        progress: Some(&note),
+        ..RenderOptions::default()
+    };
+    rendered(&scene(1.0), &options);
+    let mut seen = seen.into_inner().unwrap();
+    seen.sort_unstable();
+    let all: Vec<_> = (1..=20).map(|done| (done, 20)).collect();
+    assert_eq!(seen, all);
+}
+
+#[test]
+fn a_cancelled_rendering_ends_early_and_says_so() {
+    let cancel = AtomicBool::new(false);
+    let stop = |progress: Progress| {
+        if progress.done == 3 {
+            cancel.store(true, Ordering::Relaxed);
+        }
+    };
+    let options = RenderOptions {
+        threads: 1,
+        tile: 16,
+        progress: Some(&stop),
+        cancel: Some(&cancel),
+        ..RenderOptions::default()
+    };
+    let result = rendered(&scene(1.0), &options);
+    assert!(result.cancelled);
+    assert_eq!(result.statistics.rays.primary, 3 * 256);
+}
+
+#[test]
+fn channels_that_are_not_asked_for_cost_nothing() {
+    let options = RenderOptions {
+        channels: &[Channel::Depth, Channel::Depth],
+        ..RenderOptions::default()
+    };
+    let result = rendered(&scene(1.0), &options);
+    assert_eq!(result.film.planes().len(), 1);
+    let rays = result.statistics.rays;
+    assert_eq!(rays.shadow + rays.reflected + rays.refracted, 0);
+}
+
+#[test]
+fn every_channel_becomes_a_file_that_reads_back() {
+    let folder = std::env::temp_dir().join(format!("fieldstone-render-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let film = rendered(&scene(1.0), &everything()).film;
+    let metadata = Metadata {
+        source: "scene.sdf".into(),
+        ..Metadata::default()
+    };
+    let saved = save(&film, &folder.join("out.png"), &metadata).unwrap();
+    assert_eq!(saved.len(), Channel::ALL.len());
+    for file in &saved {
+        let read = image::open(&file.path).unwrap().to_rgb8();
+        assert_eq!(read, picture(&film, file.channel).unwrap().image);
+        assert_eq!(file.not_a_number, 0);
+    }
+    assert!(folder.join("out.evaluations.png").exists());
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn statistics_are_written_with_their_schema() {
+    let statistics = rendered(&scene(1.0), &everything()).statistics;
+    let json = serde_json::to_value(&statistics).unwrap();
+    assert_eq!(json["schema"], 1);
+    assert_eq!(json["rays"]["primary"], 75 * 50);
+    assert!(json["milliseconds"]["trace"].is_number());
+}

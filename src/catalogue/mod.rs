@@ -1,6 +1,6 @@
 //! Floor 1: every primitive, combinator and modifier, declared once.
 //!
-//! To add an entry, write its declaration ([`declaration::entry!`]) with its mathematics in a file of its own, and its
+//! To add an entry, write its declaration (`declaration::entry!`) with its mathematics in a file of its own, and its
 //! name into one of the lists below. The script's word, its error messages, the reference and the laws follow.
 
 mod blend;

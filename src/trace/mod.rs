@@ -2,7 +2,7 @@
 //!
 //! A [`World`] is a list of parts. Spheres, planes and triangles of hard unions are entered analytically; what is left
 //! is marched, each part inside its bounds, in packets of lanes. Every ray is a small machine of its own
-//! ([`method`]), so its result depends neither on the packet it rides in nor on the number of threads.
+//! (`method`), so its result depends neither on the packet it rides in nor on the number of threads.
 
 pub mod analytic;
 mod hierarchy;

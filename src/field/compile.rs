@@ -31,11 +31,14 @@ pub fn compile_wide<N: Number>(node: &Node, level: Level) -> Closure<N> {
     }
 }
 
+/// How many registers of a user's field live on the stack.
+const FEW_REGISTERS: usize = 16;
+
 /// The functions that make closures, for one level.
 macro_rules! builders {
     ($(#[$feature:meta])* mod $level:ident) => {
         mod $level {
-            use super::Closure;
+            use super::{Closure, FEW_REGISTERS};
             use crate::catalogue::{Blend, Modifier, Operation, Primitive, Similarity};
             use crate::catalogue::{with_blend, with_modifier, with_primitive};
             use crate::num::{Number, Vec3};
@@ -52,19 +55,19 @@ macro_rules! builders {
                     map = map.then(&step);
                     inner = child;
                 }
-                if map == Similarity::IDENTITY {
-                    return shape(inner);
+                if let Shape::Primitive(primitive) = inner.shape() {
+                    return with_primitive!(primitive, p => leaf(p.clone(), map));
                 }
-                match inner.shape() {
-                    Shape::Primitive(primitive) => with_primitive!(primitive, p => placed_leaf(p.clone(), map)),
-                    _ => placed(shape(inner), map),
-                }
+                let child = warped(inner);
+                if map == Similarity::IDENTITY { child } else { placed(child, map) }
             }
 
             $(#[$feature])*
-            fn shape<N: Number>(node: &Node) -> Closure<N> {
+            fn warped<N: Number>(node: &Node) -> Closure<N> {
                 match node.shape() {
-                    Shape::Primitive(primitive) => with_primitive!(primitive, p => leaf(p.clone())),
+                    Shape::Primitive(primitive) => {
+                        with_primitive!(primitive, p => leaf(p.clone(), Similarity::IDENTITY))
+                    }
                     Shape::Field(field) => graph(field),
                     Shape::Combination(combination, children) => {
                         let children = children.iter().map(|c| build(c)).collect();
@@ -78,12 +81,7 @@ macro_rules! builders {
             }
 
             $(#[$feature])*
-            fn leaf<P: Primitive + Send + Sync + 'static, N: Number>(leaf: P) -> Closure<N> {
-                Box::new(move |p: &Vec3<N>| leaf.distance(p))
-            }
-
-            $(#[$feature])*
-            fn placed_leaf<P: Primitive + Send + Sync + 'static, N: Number>(leaf: P, map: Similarity) -> Closure<N> {
+            fn leaf<P: Primitive + Send + Sync + 'static, N: Number>(leaf: P, map: Similarity) -> Closure<N> {
                 let scale = N::splat(map.scale);
                 if map.is_translation() {
                     let shift = map.shift;
@@ -142,33 +140,20 @@ macro_rules! builders {
 
             $(#[$feature])*
             fn graph<N: Number>(field: &Arc<FieldShape>) -> Closure<N> {
-                // Registers live on the stack, in the smallest of a few sizes.
-                match field.graph.registers() {
-                    0..=8 => graph_with::<N, 8>(field),
-                    9..=32 => graph_with::<N, 32>(field),
-                    _ => graph_on_heap(field),
-                }
-            }
-
-            $(#[$feature])*
-            fn graph_with<N: Number, const R: usize>(field: &Arc<FieldShape>) -> Closure<N> {
                 let shapes: Vec<Closure<N>> = field.graph.shapes().iter().map(|s| build(s)).collect();
                 let field = field.clone();
                 Box::new(move |p: &Vec3<N>| {
-                    let mut registers = [N::splat(0.0); R];
-                    field.graph.run(p, &mut registers, &|i, q: &Vec3<N>| shapes[i](q));
-                    field.graph.output(&registers, 0)
-                })
-            }
-
-            $(#[$feature])*
-            fn graph_on_heap<N: Number>(field: &Arc<FieldShape>) -> Closure<N> {
-                let shapes: Vec<Closure<N>> = field.graph.shapes().iter().map(|s| build(s)).collect();
-                let field = field.clone();
-                Box::new(move |p: &Vec3<N>| {
-                    let mut registers = vec![N::splat(0.0); field.graph.registers()];
-                    field.graph.run(p, &mut registers, &|i, q: &Vec3<N>| shapes[i](q));
-                    field.graph.output(&registers, 0)
+                    // Few registers live on the stack; one walk serves both, or the code would double.
+                    let mut few = [N::splat(0.0); FEW_REGISTERS];
+                    let mut many = Vec::new();
+                    let registers = if field.graph.registers() <= FEW_REGISTERS {
+                        &mut few[..]
+                    } else {
+                        many.resize(field.graph.registers(), N::splat(0.0));
+                        &mut many[..]
+                    };
+                    field.graph.run(p, registers, &|i, q: &Vec3<N>| shapes[i](q));
+                    field.graph.output(registers, 0)
                 })
             }
         }

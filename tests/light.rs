@@ -596,7 +596,7 @@ fn rays_without_an_answer_show_the_sky_and_are_marked() {
     let mut census = Census::default();
     let rays = [down()];
     let outcomes = whitted.first_hits(&rays, &mut census);
-    let light = whitted.light(&rays, outcomes, &mut census);
+    let light = whitted.light(&rays, &outcomes, &mut census);
     assert_eq!(light.radiance, [DVec3::splat(0.5)]);
     assert_eq!((light.unknown, census.unknown), (vec![true], 1));
 }
@@ -650,7 +650,7 @@ fn light_does_not_depend_on_what_is_traced_together() {
     let light = |rays: &[Ray]| {
         let mut census = Census::default();
         let outcomes = whitted.first_hits(rays, &mut census);
-        (whitted.light(rays, outcomes, &mut census).radiance, census)
+        (whitted.light(rays, &outcomes, &mut census).radiance, census)
     };
     let (together, all) = light(&rays);
     let mut sum = Census::default();

@@ -43,7 +43,7 @@ impl Default for RenderOptions<'_> {
         Self {
             channels: &[Channel::Beauty],
             threads: 0,
-            tile: 64,
+            tile: 32,
             progress: None,
             cancel: None,
         }

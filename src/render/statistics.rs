@@ -77,7 +77,8 @@ pub struct Steps {
     pub histogram: Vec<(u32, u64)>,
 }
 
-/// Times in milliseconds. Tracing and shading are processor times, summed over the threads.
+/// Times in milliseconds. Tracing and shading are those of all threads added up, as a clock shows them: the processor time
+/// where every thread has a processor of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Milliseconds {
     /// Finding surfaces, by rays of all kinds.

@@ -91,7 +91,7 @@ impl Tile {
             }
         }
         if shared.wants_beauty {
-            let light = shared.whitted.light(rays, outcomes, &mut tally.census);
+            let light = shared.whitted.light(rays, &outcomes, &mut tally.census);
             for (i, sum) in sums.iter_mut().enumerate() {
                 sum.beauty += light.radiance[i];
                 sum.is_unknown |= light.unknown[i];

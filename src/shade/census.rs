@@ -28,7 +28,7 @@ pub struct Census {
     pub too_faint: u64,
     /// Evaluations of fields, by all rays.
     pub evaluations: u64,
-    /// The processor time inside of the tracer.
+    /// The time inside of the tracer, as a clock shows it.
     pub tracing: Duration,
 }
 

@@ -11,9 +11,9 @@
 
 use super::attenuation::{absorbed, through_fog};
 use super::light::Lamp;
-use super::meeting::Meeting;
-use super::shadow::{ShadowRay, passages};
-use super::wave::{Path, Wave, cut_between_samples};
+use super::meeting::{Meeting, Onward};
+use super::shadow::{ShadowRays, passages};
+use super::wave::{Path, Wave, Waves};
 use super::{Census, Features, Surface, Surfaces, offset, phong, sky};
 use crate::scene::{Fog, Scene, Sky};
 use crate::trace::{Outcome, Ray, Verdict, Visibility};
@@ -41,10 +41,12 @@ pub struct Light {
     pub unknown: Vec<bool>,
 }
 
-/// A shadow ray with what is gained if it passes.
-struct Gain {
-    sample: usize,
-    radiance: DVec3,
+/// What is gained if shadow rays pass.
+#[derive(Default)]
+struct Gains {
+    rays: ShadowRays,
+    samples: Vec<usize>,
+    radiance: Vec<DVec3>,
 }
 
 impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
@@ -91,19 +93,14 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
     }
 
     /// The light along camera rays that hit `outcomes`.
-    pub fn light(&self, rays: &[Ray], outcomes: Vec<Outcome>, census: &mut Census) -> Light {
+    pub fn light(&self, rays: &[Ray], outcomes: &[Outcome], census: &mut Census) -> Light {
         let mut light = Light {
             radiance: vec![DVec3::ZERO; rays.len()],
             unknown: vec![false; rays.len()],
         };
-        let camera = Wave {
-            depth: 0,
-            paths: rays.iter().enumerate().map(Path::from_camera).collect(),
-        };
-        let mut waiting = self.shade(camera, &outcomes, &mut light, census);
+        let mut waiting = self.shade(Wave::from_camera(rays), outcomes, &mut light, census);
         while let Some(wave) = waiting.pop() {
-            let rays: Vec<Ray> = wave.paths.iter().map(|path| path.ray).collect();
-            let outcomes = census.timed(|| self.surfaces.nearest(&rays, Visibility::All));
+            let outcomes = census.timed(|| self.surfaces.nearest(&wave.rays, Visibility::All));
             for outcome in &outcomes {
                 census.evaluations += u64::from(outcome.evaluations);
                 census.unknown_secondary += u64::from(outcome.verdict == Verdict::Unknown);
@@ -121,33 +118,34 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         light: &mut Light,
         census: &mut Census,
     ) -> Vec<Wave> {
-        let mut next = Vec::new();
-        let (mut gains, mut shadows) = (Vec::new(), Vec::new());
-        for (mut path, outcome) in wave.paths.into_iter().zip(outcomes) {
+        let mut next = Waves::new(wave.depth + 1);
+        let mut gains = Gains::default();
+        let rays = wave.rays.iter().zip(wave.paths);
+        for ((ray, mut path), outcome) in rays.zip(outcomes) {
             let sample = path.sample;
             light.unknown[sample] |= outcome.verdict == Verdict::Unknown;
             let surface = self.surface(outcome);
             let distance = surface.map_or(f64::INFINITY, |_| outcome.t);
             light.radiance[sample] += self.travel(&mut path, distance);
-            let Some(surface) = surface else {
-                light.radiance[sample] += self.background(&path);
+            let Some(surface) = &surface else {
+                light.radiance[sample] += self.background(ray, &path);
                 continue;
             };
-            let hit = Meeting::new(path, outcome, surface);
-            light.radiance[sample] += hit.path.weight * phong::ambient(&hit.surface);
-            if self.features.lit && hit.surface.is_lit() {
-                self.ask_lamps(&hit, &mut gains, &mut shadows);
+            let hit = Meeting::new(ray, &path, outcome, surface);
+            light.radiance[sample] += path.weight * phong::ambient(surface);
+            if self.features.lit && surface.is_lit() {
+                self.ask_lamps(&hit, &mut gains);
             }
             if self.features.reflects {
-                self.send_on(&hit, wave.depth, &mut next, census);
+                self.send_on(&hit, &mut next, census);
             }
         }
-        let passed = passages(self.surfaces, &self.features, &shadows, census);
-        for (gain, passage) in gains.iter().zip(passed) {
-            light.radiance[gain.sample] += gain.radiance * passage.share;
-            light.unknown[gain.sample] |= passage.unknown;
+        let passed = passages(self.surfaces, &self.features, &gains.rays, census);
+        for (i, passage) in passed.iter().enumerate() {
+            light.radiance[gains.samples[i]] += gains.radiance[i] * passage.share;
+            light.unknown[gains.samples[i]] |= passage.unknown;
         }
-        cut_between_samples(wave.depth + 1, next)
+        next.waves
     }
 
     /// What was hit; `None` where nothing was.
@@ -172,30 +170,25 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         scattered
     }
 
-    /// The sky behind a path, unless nothing of it is left on the infinite way.
-    fn background(&self, path: &Path) -> DVec3 {
+    /// The sky behind a ray, unless nothing of it is left on the infinite way.
+    fn background(&self, ray: &Ray, path: &Path) -> DVec3 {
         if path.weight == DVec3::ZERO {
             return DVec3::ZERO;
         }
-        path.weight * sky::radiance(&self.sky, path.ray.direction)
+        path.weight * sky::radiance(&self.sky, ray.direction)
     }
 
     /// Collects what each lamp adds at a hit if nothing is in the way, with the ray that finds out.
-    fn ask_lamps(&self, hit: &Meeting, gains: &mut Vec<Gain>, shadows: &mut Vec<ShadowRay>) {
-        let view = -hit.path.ray.direction;
-        for arrival in self
-            .lamps
-            .iter()
-            .filter_map(|lamp| lamp.at(hit.outcome.point))
-        {
-            let seen = phong::reflectance(&hit.surface, hit.normal, arrival.toward, view);
+    fn ask_lamps(&self, hit: &Meeting, gains: &mut Gains) {
+        let view = -hit.ray.direction;
+        for lamp in &self.lamps {
+            let Some(arrival) = lamp.at(hit.outcome.point) else {
+                continue;
+            };
+            let seen = phong::reflectance(hit.surface, hit.normal, arrival.toward, view);
             if seen == DVec3::ZERO {
                 continue;
             }
-            gains.push(Gain {
-                sample: hit.path.sample,
-                radiance: hit.path.weight * seen * arrival.radiance,
-            });
             let mut ray = hit.leaving(hit.normal, arrival.toward);
             if let Some(position) = arrival.position {
                 let way = position - ray.origin;
@@ -203,30 +196,69 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                 ray.direction = way / distance;
                 ray.t_max = offset::before(distance);
             }
-            shadows.push(ShadowRay {
-                ray,
-                media: hit.path.media.clone(),
-            });
+            gains.rays.rays.push(ray);
+            if self.features.tinted_shadows {
+                gains.rays.media.push(hit.path.media.clone());
+            }
+            gains.samples.push(hit.path.sample);
+            gains
+                .radiance
+                .push(hit.path.weight * seen * arrival.radiance);
         }
     }
 
-    /// Adds the reflected and the refracted ray of a hit to the next wave, unless they are too deep or too faint.
-    fn send_on(&self, hit: &Meeting, depth: u32, next: &mut Vec<Path>, census: &mut Census) {
-        let onward = hit.onward();
-        let rays = [
-            (onward.reflected, &mut census.reflected),
-            (onward.refracted, &mut census.refracted),
-        ];
-        for (path, count) in rays {
-            let Some(path) = path else { continue };
-            if path.weight.max_element() < FAINTEST {
-                census.too_faint += 1;
-            } else if depth >= self.depth {
-                census.too_deep += 1;
-            } else {
-                *count += 1;
-                next.push(path);
-            }
+    /// Adds the reflected and the refracted ray of a hit to the next waves, unless they are too deep or too faint.
+    fn send_on(&self, hit: &Meeting, next: &mut Waves, census: &mut Census) {
+        let Onward {
+            reflected,
+            refracted,
+        } = hit.onward();
+        if let Some(weight) = self.passing(hit, reflected.share, next, census) {
+            census.reflected += 1;
+            let ray = hit.leaving(hit.normal, reflected.direction);
+            next.push(
+                ray,
+                Path {
+                    weight,
+                    ..hit.path.clone()
+                },
+            );
         }
+        let Some((branch, crossing)) = refracted else {
+            return;
+        };
+        if let Some(weight) = self.passing(hit, branch.share, next, census) {
+            census.refracted += 1;
+            let ray = hit.leaving(-hit.normal, branch.direction);
+            let path = Path {
+                weight,
+                sample: hit.path.sample,
+                media: crossing.beyond,
+            };
+            next.push(ray, path);
+        }
+    }
+
+    /// The weight of a ray with this share of a hit's; `None` if it is zero, too faint or too deep.
+    fn passing(
+        &self,
+        hit: &Meeting,
+        share: f64,
+        next: &Waves,
+        census: &mut Census,
+    ) -> Option<DVec3> {
+        if share == 0.0 {
+            return None;
+        }
+        let weight = hit.path.weight * share;
+        if weight.max_element() < FAINTEST {
+            census.too_faint += 1;
+            return None;
+        }
+        if next.depth > self.depth {
+            census.too_deep += 1;
+            return None;
+        }
+        Some(weight)
     }
 }

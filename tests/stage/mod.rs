@@ -161,7 +161,7 @@ pub fn see(scene: &Scene, stage: &Stage, ray: Ray) -> (DVec3, Census) {
     let mut census = Census::default();
     let whitted = Whitted::new(scene, stage);
     let outcomes = whitted.first_hits(&[ray], &mut census);
-    let light = whitted.light(&[ray], outcomes, &mut census);
+    let light = whitted.light(&[ray], &outcomes, &mut census);
     (light.radiance[0], census)
 }
 

@@ -369,6 +369,15 @@ impl Graph {
         self.steps.len()
     }
 
+    /// How many operations a walk takes, with the nodes of shapes as often as they are asked.
+    pub(super) fn work(&self) -> u64 {
+        let of_step = |step: &Step| match step.op {
+            Op::Shape(index, _) => self.shapes[index as usize].size(),
+            _ => 1,
+        };
+        self.steps.iter().map(of_step).sum()
+    }
+
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()

@@ -52,6 +52,7 @@ pub struct Node {
     everywhere: f64,
     is_regional: bool,
     depth: u32,
+    size: u64,
     paint: Option<Arc<Material>>,
     name: Option<Arc<str>>,
     place: Option<Place>,
@@ -60,6 +61,9 @@ pub struct Node {
 impl Node {
     /// How many nodes may lie on the way from the root to a leaf.
     pub const MAX_DEPTH: u32 = 512;
+
+    /// How many nodes a tree may have, where one that is used several times counts as often.
+    pub const MAX_SIZE: u64 = 1 << 20;
 
     /// A leaf of the catalogue.
     ///
@@ -184,6 +188,19 @@ impl Node {
                 "unite many shapes at once, as in `union(list)`, instead of one after another",
             ));
         }
+        let size = 1 + match &shape {
+            Shape::Primitive(_) => 0,
+            Shape::Field(field) => field.graph.work(),
+            Shape::Combination(_, children) => children.iter().map(|n| n.size).sum(),
+            Shape::Modifier(_, child) => child.size,
+        };
+        if size > Self::MAX_SIZE {
+            let limit = Self::MAX_SIZE;
+            return Err(Fault::new(
+                format!("the shape has more than {limit} parts (limit MAX_SIZE)"),
+                "repeat a part with `.repeat(...)`, which costs no more than the part itself",
+            ));
+        }
         let mut node = Self {
             shape,
             traits,
@@ -192,6 +209,7 @@ impl Node {
             everywhere,
             is_regional,
             depth,
+            size,
             paint: None,
             name: None,
             place: None,
@@ -305,6 +323,12 @@ impl Node {
             Shape::Combination(..) => Combination::RULE,
             Shape::Modifier(modifier, _) => with_modifier!(modifier, m => of_modifier(m)),
         }
+    }
+
+    /// How many nodes the tree has, where one that is used several times counts as often; operations of a user's field
+    /// count as nodes. What walks over the tree takes so long.
+    pub fn size(&self) -> u64 {
+        self.size
     }
 
     /// The node's children.

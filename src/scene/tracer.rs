@@ -21,7 +21,7 @@ pub struct TraceRecord {
 }
 
 /// Traces single rays through shapes; floors above the language hand one down to it.
-pub trait Tracer {
+pub trait Tracer: Sync {
     /// What the ray from `origin` along `direction` (of any length but zero) finds first among `shown`.
     ///
     /// # Errors

@@ -1,1 +1,42 @@
-//! Under construction.
+//! Floor 3: the scene language: from text to a scene.
+//!
+//! `text -scan-> brackets pair up -syntax-> statements -resolve-> names settled -machine-> values -> Scene`
+//!
+//! What is wrong with a script comes back as a [`Report`], every error with its place and a hint. Scripts are not
+//! trusted: whatever they do ends within the limits of [`limits`].
+
+mod arguments;
+mod ast;
+mod build;
+mod builtin;
+mod claims;
+mod color;
+mod complaint;
+mod entries;
+mod fields;
+mod hint;
+mod intrinsics;
+pub mod limits;
+mod load;
+mod machine;
+mod materials;
+mod members;
+mod numeric;
+mod operators;
+mod program;
+mod report;
+mod resolve;
+mod scan;
+mod settings;
+mod shapes;
+mod source;
+mod statements;
+mod syntax;
+mod terms;
+mod trial;
+mod value;
+
+pub use load::{LoadError, Loaded, load, load_text};
+pub use report::{Diagnostic, Level, Report};
+pub use source::{Source, Sources, Span};
+pub use trial::TestResult;

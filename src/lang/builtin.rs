@@ -1,0 +1,215 @@
+//! The words that every script knows: the catalogue's entries, and the few functions of the language itself.
+
+use crate::catalogue::{AnyBlend, AnyModifier, AnyPrimitive, Declaration, Function, Operation};
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
+/// What a built-in word stands for.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Builtin {
+    Primitive(&'static Declaration),
+    Modifier(&'static Declaration),
+    Blend(&'static Declaration),
+    Operation(Operation),
+    Function(Function),
+    Constant(f64),
+    Intrinsic(Intrinsic),
+}
+
+/// A function that only the language knows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Intrinsic {
+    At,
+    Checker,
+    Concat,
+    Cross,
+    Distance,
+    Dot,
+    Gradient,
+    Len,
+    Length,
+    Normalize,
+    Paint,
+    Rand,
+    Reverse,
+    Rgb,
+    Str,
+    Stripes,
+    Sum,
+    Trace,
+}
+
+impl Intrinsic {
+    /// Every one with its name, its arguments (a `?` marks those that may be left out), and what it gives.
+    pub const ALL: [(&'static str, Self, &'static str, &'static str); 18] = [
+        (
+            "at",
+            Self::At,
+            "shape, p",
+            "the value of a shape's field at a point",
+        ),
+        (
+            "checker",
+            Self::Checker,
+            "a, b, size?",
+            "a pattern of cubes with edge `size` (1)",
+        ),
+        (
+            "concat",
+            Self::Concat,
+            "a, b, ...",
+            "the elements of several lists as one list",
+        ),
+        ("cross", Self::Cross, "a, b", "the vector product"),
+        (
+            "distance",
+            Self::Distance,
+            "a, b",
+            "the distance between two points",
+        ),
+        ("dot", Self::Dot, "a, b", "the scalar product"),
+        (
+            "gradient",
+            Self::Gradient,
+            "a, b, from?, to?",
+            "a pattern that turns from `a` at `from` ([0, 0, 0]) into `b` at `to` ([0, 1, 0])",
+        ),
+        (
+            "len",
+            Self::Len,
+            "list",
+            "the number of elements, or of bytes of a string",
+        ),
+        (
+            "length",
+            Self::Length,
+            "v",
+            "the Euclidean length of a vector",
+        ),
+        (
+            "normalize",
+            Self::Normalize,
+            "v",
+            "the vector with the same direction and length 1",
+        ),
+        (
+            "paint",
+            Self::Paint,
+            "shape, material",
+            "the shape with a material where none is given deeper down",
+        ),
+        (
+            "rand",
+            Self::Rand,
+            "seed, ...",
+            "a number in [0, 1) that depends on its arguments alone",
+        ),
+        (
+            "reverse",
+            Self::Reverse,
+            "list",
+            "the elements in the opposite order",
+        ),
+        (
+            "rgb",
+            Self::Rgb,
+            "r, g, b",
+            "a colour from linear components",
+        ),
+        ("str", Self::Str, "value, ...", "the values as one string"),
+        (
+            "stripes",
+            Self::Stripes,
+            "a, b, width?, axis?",
+            "a pattern of layers of the given width (1) across an axis (\"x\")",
+        ),
+        ("sum", Self::Sum, "list", "the sum of all elements"),
+        (
+            "trace",
+            Self::Trace,
+            "origin, direction",
+            "what a ray finds first: `.hit .t .point .normal .steps .evaluations .verdict`",
+        ),
+    ];
+
+    /// The name in scripts.
+    pub fn name(self) -> &'static str {
+        Self::ALL
+            .iter()
+            .find(|(_, intrinsic, ..)| *intrinsic == self)
+            .map_or("", |(name, ..)| name)
+    }
+
+    /// The names of its arguments, and whether each must be given.
+    pub fn arguments(self) -> Vec<(&'static str, bool)> {
+        let words = Self::ALL
+            .iter()
+            .find(|(_, intrinsic, ..)| *intrinsic == self)
+            .map_or("", |(_, _, arguments, _)| arguments);
+        words
+            .split(", ")
+            .filter(|word| *word != "...")
+            .map(|word| (word.trim_end_matches('?'), !word.ends_with('?')))
+            .collect()
+    }
+}
+
+static WORDS: LazyLock<HashMap<&'static str, Builtin>> = LazyLock::new(|| {
+    let constants = [
+        ("pi", std::f64::consts::PI),
+        ("tau", std::f64::consts::TAU),
+        ("infinity", f64::INFINITY),
+    ];
+    let entries = |list: &'static [&'static Declaration],
+                   make: fn(&'static Declaration) -> Builtin| {
+        list.iter().map(move |entry| (entry.name, make(entry)))
+    };
+    let mut words = HashMap::new();
+    words.extend(constants.map(|(name, x)| (name, Builtin::Constant(x))));
+    words.extend(Intrinsic::ALL.map(|(name, i, ..)| (name, Builtin::Intrinsic(i))));
+    words.extend(entries(AnyBlend::DECLARATIONS, Builtin::Blend));
+    words.extend(
+        Function::ALL
+            .iter()
+            .map(|f| (f.name(), Builtin::Function(*f))),
+    );
+    words.extend(entries(AnyModifier::DECLARATIONS, Builtin::Modifier));
+    words.extend(entries(AnyPrimitive::DECLARATIONS, Builtin::Primitive));
+    words.extend(Operation::ALL.map(|(name, o)| (name, Builtin::Operation(o))));
+    words
+});
+
+impl Builtin {
+    /// What the word stands for, if it is built in.
+    pub fn named(word: &str) -> Option<Self> {
+        WORDS.get(word).copied()
+    }
+
+    /// Every built-in word, sorted.
+    pub fn names() -> Vec<&'static str> {
+        let mut names: Vec<_> = WORDS.keys().copied().collect();
+        names.sort_unstable();
+        names
+    }
+
+    /// The blend of this name, also where a function has the same.
+    pub fn blend(word: &str) -> Option<&'static Declaration> {
+        AnyBlend::DECLARATIONS
+            .iter()
+            .copied()
+            .find(|entry| entry.name == word)
+    }
+
+    /// The name in scripts.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Primitive(entry) | Self::Modifier(entry) | Self::Blend(entry) => entry.name,
+            Self::Operation(operation) => operation.name(),
+            Self::Function(function) => function.name(),
+            Self::Constant(x) if x == std::f64::consts::PI => "pi",
+            Self::Constant(x) if x == std::f64::consts::TAU => "tau",
+            Self::Constant(_) => "infinity",
+            Self::Intrinsic(intrinsic) => intrinsic.name(),
+        }
+    }
+}

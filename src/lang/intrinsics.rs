@@ -1,0 +1,543 @@
+//! Calls of values, and the functions that only the language knows.
+
+use super::arguments::{Given, bind};
+use super::ast::RoutineKind;
+use super::builtin::{Builtin, Intrinsic};
+use super::limits::MAX_STRING;
+use super::machine::{Eval, Machine, item_of};
+use super::numeric::Arithmetic;
+use super::report::Diagnostic;
+use super::source::Span;
+use super::value::{Form, PatternKind, Quantity, Scalar, Value};
+use crate::catalogue::{AXES, Function};
+use crate::num::Vec3;
+use std::sync::Arc;
+
+impl<'a> Machine<'a> {
+    /// Calls any value that can be called.
+    pub fn call(&mut self, callee: Value, at: Span, given: Vec<Given<'a>>) -> Eval<Value> {
+        match callee {
+            Value::Routine(RoutineKind::Function, id) => self.call_routine(id, at, given),
+            Value::Routine(RoutineKind::Field, id) => self.call_field(id, at, given),
+            Value::Routine(RoutineKind::Pattern, id) => self.call_pattern(id, at, given),
+            Value::Builtin(Builtin::Primitive(entry)) => self.primitive(entry, at, given),
+            Value::Builtin(Builtin::Modifier(entry)) => self.modifier(entry, at, given),
+            Value::Builtin(Builtin::Blend(entry)) => self.blend(entry, at, given),
+            Value::Builtin(Builtin::Operation(operation)) => self.operation(operation, at, given),
+            Value::Builtin(Builtin::Function(function)) => self.function(function, at, given),
+            Value::Builtin(Builtin::Intrinsic(intrinsic)) => self.intrinsic(intrinsic, at, given),
+            Value::Pattern(pattern) => match &given[..] {
+                [point] if point.label.is_none() => self.pattern_at(&pattern, &point.value, at),
+                _ => {
+                    let message = "a pattern is taken at one point [x, y, z]";
+                    self.fail(Diagnostic::error(at, message))
+                }
+            },
+            other => {
+                let message = format!("{} cannot be called", other.noun());
+                self.fail(Diagnostic::error(at, message).label(other.shown()))
+            }
+        }
+    }
+
+    /// A function of the catalogue, by components.
+    fn function(&mut self, function: Function, at: Span, given: Vec<Given<'a>>) -> Eval<Value> {
+        if let Some(fold) = self.folded(function, &given, at)? {
+            return Ok(fold);
+        }
+        let slots: Vec<_> = function
+            .arguments()
+            .iter()
+            .map(|name| (*name, true))
+            .collect();
+        let bound = match bind(function.name(), &slots, at, given) {
+            Ok(bound) => bound,
+            Err(diagnostic) => return self.fail(*diagnostic),
+        };
+        let mut quantities = Vec::with_capacity(3);
+        for given in bound.iter().flatten() {
+            match given.value.quantity() {
+                Some(quantity) => quantities.push(quantity),
+                None => {
+                    let message = format!(
+                        "`{}` works on numbers, but this is {}",
+                        function.name(),
+                        given.value.noun()
+                    );
+                    let error = Diagnostic::error(given.span, message).label(given.value.shown());
+                    return self.fail(error);
+                }
+            }
+        }
+        let Some((form, count)) = function_form(function, &quantities) else {
+            let nouns: Vec<String> = bound
+                .iter()
+                .flatten()
+                .map(|given| given.value.noun().into())
+                .collect();
+            let nouns = super::hint::joined(&nouns, "and");
+            let message = format!("`{}` does not work on {nouns}", function.name());
+            return self.fail(Diagnostic::error(at, message));
+        };
+        let mut result = [Scalar::Known(0.0); 3];
+        for (i, scalar) in result[..count].iter_mut().enumerate() {
+            let mut arguments = [Scalar::Known(0.0); 3];
+            for (argument, quantity) in arguments.iter_mut().zip(&quantities) {
+                *argument = quantity.component(i);
+            }
+            *scalar = self.apply(function, &arguments[..quantities.len()]);
+        }
+        self.check_graph(at)?;
+        Ok(Quantity::new(form, &result[..count]).value())
+    }
+
+    /// The smallest or largest of a list, or of more than two arguments; none for other calls.
+    fn folded(&mut self, function: Function, given: &[Given<'a>], at: Span) -> Eval<Option<Value>> {
+        if !matches!(function, Function::Min | Function::Max) {
+            return Ok(None);
+        }
+        let items: Vec<Value> = match given {
+            [only] if only.label.is_none() => {
+                let count = self.count_of(&only.value, only.span)?;
+                (0..count).map(|i| item_of(&only.value, i)).collect()
+            }
+            [_, _, _, ..] if given.iter().all(|g| g.label.is_none()) => {
+                given.iter().map(|g| g.value.clone()).collect()
+            }
+            _ => return Ok(None),
+        };
+        self.tick(items.len() as u64, at)?;
+        let mut items = items.into_iter();
+        let Some(mut best) = items.next() else {
+            let message = format!("an empty list has no `{}`", function.name());
+            return self.fail(Diagnostic::error(at, message));
+        };
+        for item in items {
+            let pair = [best, item].map(|value| Given {
+                label: None,
+                value,
+                span: at,
+            });
+            best = self.function(function, at, pair.to_vec())?;
+        }
+        Ok(Some(best))
+    }
+
+    fn intrinsic(&mut self, intrinsic: Intrinsic, at: Span, given: Vec<Given<'a>>) -> Eval<Value> {
+        match intrinsic {
+            Intrinsic::Concat => return self.concat(at, &given),
+            Intrinsic::Str => return self.str(at, &given),
+            Intrinsic::Rand => return self.rand(at, &given),
+            Intrinsic::Trace => return self.trace(at, &given),
+            _ => {}
+        }
+        let slots = intrinsic.arguments();
+        let bound = match bind(intrinsic.name(), &slots, at, given) {
+            Ok(bound) => bound,
+            Err(diagnostic) => return self.fail(*diagnostic),
+        };
+        let mut bound = bound.into_iter();
+        // The names say which arguments are there; those that must be are.
+        let mut next = || bound.next().flatten();
+        let (Some(first), second, third, fourth) = (next(), next(), next(), next()) else {
+            return Err(super::machine::Stop);
+        };
+        match (intrinsic, second) {
+            (Intrinsic::At, Some(point)) => self.at(&first, &point),
+            (Intrinsic::Paint, Some(material)) => match &material.value {
+                Value::Material(m) => self.painted(&first.value, &m.clone(), first.span),
+                other => {
+                    let message =
+                        format!("`paint` expects a material, but this is {}", other.noun());
+                    let error = Diagnostic::error(material.span, message).label(other.shown());
+                    self.fail(match other {
+                        Value::Color(_) => error.help(
+                            "write `material name { color: #d9a441 }` and paint with the name",
+                        ),
+                        _ => error,
+                    })
+                }
+            },
+            (Intrinsic::Len, _) => match &first.value {
+                Value::Text(text) => Ok(Value::Number(text.len() as f64)),
+                other => {
+                    let count = self.count_of(other, first.span)?;
+                    Ok(Value::Number(count as f64))
+                }
+            },
+            (Intrinsic::Reverse, _) => {
+                let count = self.count_of(&first.value, first.span)?;
+                self.tick(count as u64 / 4, at)?;
+                let items = (0..count).rev().map(|i| item_of(&first.value, i)).collect();
+                self.listed(items, at)
+            }
+            (Intrinsic::Sum, _) => self.sum(&first, at),
+            (Intrinsic::Length, _) => {
+                let v = self.vector(&first, "length")?;
+                let length = self.length(v.scalars());
+                self.number(length, at)
+            }
+            (Intrinsic::Normalize, _) => self.normalize(&first, at),
+            (Intrinsic::Dot, Some(second)) => {
+                let (a, b) = self.vectors(&first, &second, "dot")?;
+                let dot = self.dot(a.scalars(), b.scalars());
+                self.number(dot, at)
+            }
+            (Intrinsic::Distance, Some(second)) => {
+                let (a, b) = self.vectors(&first, &second, "distance")?;
+                let mut difference = a.scalars;
+                for (i, x) in difference[..a.count].iter_mut().enumerate() {
+                    *x = self.arithmetic(Arithmetic::Subtract, *x, b.scalars[i]);
+                }
+                let length = self.length(&difference[..a.count]);
+                self.number(length, at)
+            }
+            (Intrinsic::Cross, Some(second)) => self.cross(&first, &second, at),
+            (Intrinsic::Rgb, Some(green)) => {
+                let Some(blue) = third else {
+                    return Err(super::machine::Stop);
+                };
+                let mut parts = [Scalar::Known(0.0); 3];
+                for (part, given) in parts.iter_mut().zip([&first, &green, &blue]) {
+                    *part = self.scalar_of(given, "rgb")?;
+                }
+                Ok(Quantity::new(Form::Color, &parts).value())
+            }
+            (Intrinsic::Checker, Some(b)) => {
+                let size = self.positive(third, "size", "checker")?;
+                let (a, b) = self.shades(first, b, "checker")?;
+                self.pattern(PatternKind::Checker { a, b, size }, at)
+            }
+            (Intrinsic::Stripes, Some(b)) => {
+                let width = self.positive(third, "width", "stripes")?;
+                let axis = self.axis(fourth)?;
+                let (a, b) = self.shades(first, b, "stripes")?;
+                let kind = PatternKind::Stripes { a, b, width, axis };
+                self.pattern(kind, at)
+            }
+            (Intrinsic::Gradient, Some(b)) => {
+                let from = self.point_or(third, [0.0; 3], "gradient")?;
+                let to = self.point_or(fourth, [0.0, 1.0, 0.0], "gradient")?;
+                let way: [f64; 3] = std::array::from_fn(|i| to[i] - from[i]);
+                if way == [0.0; 3] {
+                    let message = "`from` and `to` of `gradient` must be different points";
+                    return self.fail(Diagnostic::error(at, message));
+                }
+                let (a, b) = self.shades(first, b, "gradient")?;
+                self.pattern(PatternKind::Gradient { a, b, from, way }, at)
+            }
+            _ => Err(super::machine::Stop),
+        }
+    }
+
+    fn number(&mut self, scalar: Scalar, at: Span) -> Eval<Value> {
+        self.check_graph(at)?;
+        Ok(Quantity::new(Form::Number, &[scalar]).value())
+    }
+
+    /// Reports an argument of the wrong kind.
+    pub fn unfit<T>(&mut self, given: &Given, callee: &str, wanted: &str) -> Eval<T> {
+        let message = format!(
+            "`{callee}` expects {wanted}, but this is {}",
+            given.value.noun()
+        );
+        self.fail(Diagnostic::error(given.span, message).label(given.value.shown()))
+    }
+
+    fn vector(&mut self, given: &Given, callee: &str) -> Eval<Quantity> {
+        match given.value.quantity() {
+            Some(quantity) if quantity.form == Form::Vector => Ok(quantity),
+            _ => self.unfit(given, callee, "a vector"),
+        }
+    }
+
+    fn vectors(&mut self, a: &Given, b: &Given, callee: &str) -> Eval<(Quantity, Quantity)> {
+        let (x, y) = (self.vector(a, callee)?, self.vector(b, callee)?);
+        if x.count == y.count {
+            return Ok((x, y));
+        }
+        let wanted = format!("a vector with {} components here", x.count);
+        self.unfit(b, callee, &wanted)
+    }
+
+    fn scalar_of(&mut self, given: &Given, callee: &str) -> Eval<Scalar> {
+        match given.value.quantity() {
+            Some(quantity) if quantity.form == Form::Number => Ok(quantity.scalars[0]),
+            _ => self.unfit(given, callee, "a number"),
+        }
+    }
+
+    /// The components of a known point.
+    pub fn known_point(&mut self, given: &Given, callee: &str) -> Eval<[f64; 3]> {
+        match given.value {
+            Value::Vector3(p) => Ok(p),
+            _ => self.unfit(given, callee, "a vector [x, y, z]"),
+        }
+    }
+
+    fn point_or(
+        &mut self,
+        given: Option<Given>,
+        default: [f64; 3],
+        callee: &str,
+    ) -> Eval<[f64; 3]> {
+        match given {
+            Some(given) => self.known_point(&given, callee),
+            None => Ok(default),
+        }
+    }
+
+    fn positive(&mut self, given: Option<Given>, name: &str, callee: &str) -> Eval<f64> {
+        let Some(given) = given else {
+            return Ok(1.0);
+        };
+        match given.value {
+            Value::Number(x) if x > 0.0 && x.is_finite() => Ok(x),
+            Value::Number(_) => {
+                let message = format!("`{name}` of `{callee}` must be positive");
+                let error = Diagnostic::error(given.span, message).label(given.value.shown());
+                self.fail(error.help("the default is 1"))
+            }
+            _ => self.unfit(&given, callee, "a number"),
+        }
+    }
+
+    fn axis(&mut self, given: Option<Given>) -> Eval<[f64; 3]> {
+        let Some(given) = given else {
+            return Ok([1.0, 0.0, 0.0]);
+        };
+        match &given.value {
+            Value::Text(name) => {
+                if let Some(i) = AXES.iter().position(|axis| **axis == **name) {
+                    let mut axis = [0.0; 3];
+                    axis[i] = 1.0;
+                    return Ok(axis);
+                }
+            }
+            Value::Vector3(v) if *v != [0.0; 3] => {
+                let length = v.iter().fold(0.0, |n: f64, c| n.hypot(*c));
+                return Ok(v.map(|c| c / length));
+            }
+            _ => {}
+        }
+        self.unfit(
+            &given,
+            "stripes",
+            "an axis \"x\", \"y\", \"z\" or a direction",
+        )
+    }
+
+    /// The two values between which a pattern changes: both colours or both numbers, or patterns.
+    fn shades(&mut self, a: Given, b: Given, callee: &str) -> Eval<(Value, Value)> {
+        for given in [&a, &b] {
+            let is_shade = matches!(
+                given.value,
+                Value::Number(_)
+                    | Value::Color(_)
+                    | Value::Pattern(_)
+                    | Value::Routine(RoutineKind::Pattern, _)
+            );
+            if !is_shade {
+                return self.unfit(given, callee, "a colour, a number or a pattern");
+            }
+        }
+        let is_color = [&a, &b].map(|given| matches!(given.value, Value::Color(_)));
+        let is_number = [&a, &b].map(|given| matches!(given.value, Value::Number(_)));
+        if (is_color[0] && is_number[1]) || (is_number[0] && is_color[1]) {
+            let wanted = if is_color[0] {
+                "a colour here"
+            } else {
+                "a number here"
+            };
+            return self.unfit(&b, callee, wanted);
+        }
+        Ok((a.value, b.value))
+    }
+
+    fn normalize(&mut self, given: &Given, at: Span) -> Eval<Value> {
+        let v = self.vector(given, "normalize")?;
+        let length = self.length(v.scalars());
+        if length == Scalar::Known(0.0) {
+            let error = Diagnostic::error(given.span, "a vector of length zero has no direction");
+            return self.fail(error);
+        }
+        let mut unit = v.scalars;
+        for x in &mut unit[..v.count] {
+            *x = self.arithmetic(Arithmetic::Divide, *x, length);
+        }
+        self.check_graph(at)?;
+        Ok(Quantity::new(Form::Vector, &unit[..v.count]).value())
+    }
+
+    fn cross(&mut self, a: &Given, b: &Given, at: Span) -> Eval<Value> {
+        let (x, y) = self.vectors(a, b, "cross")?;
+        if x.count != 3 {
+            return self.unfit(a, "cross", "a vector [x, y, z]");
+        }
+        let mut product = [Scalar::Known(0.0); 3];
+        for (i, component) in product.iter_mut().enumerate() {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let plus = self.arithmetic(Arithmetic::Multiply, x.scalars[j], y.scalars[k]);
+            let minus = self.arithmetic(Arithmetic::Multiply, x.scalars[k], y.scalars[j]);
+            *component = self.arithmetic(Arithmetic::Subtract, plus, minus);
+        }
+        self.check_graph(at)?;
+        Ok(Quantity::new(Form::Vector, &product).value())
+    }
+
+    fn sum(&mut self, given: &Given, at: Span) -> Eval<Value> {
+        let count = self.count_of(&given.value, given.span)?;
+        self.tick(count as u64, at)?;
+        let mut sum = None;
+        for i in 0..count {
+            let item = item_of(&given.value, i);
+            sum = Some(match sum {
+                None => item,
+                Some(sum) => {
+                    let add = super::ast::Operator::Add;
+                    self.binary(add, (sum, given.span), (item, given.span))?
+                }
+            });
+        }
+        Ok(sum.unwrap_or(Value::Number(0.0)))
+    }
+
+    fn concat(&mut self, at: Span, given: &[Given]) -> Eval<Value> {
+        let mut items = Vec::new();
+        for argument in given {
+            let count = self.count_of(&argument.value, argument.span)?;
+            self.tick(count as u64 / 4, at)?;
+            items.extend((0..count).map(|i| item_of(&argument.value, i)));
+        }
+        self.listed(items, at)
+    }
+
+    fn str(&mut self, at: Span, given: &[Given]) -> Eval<Value> {
+        let parts: Vec<String> = given
+            .iter()
+            .map(|argument| match &argument.value {
+                Value::Text(text) => text.to_string(),
+                other => other.to_string(),
+            })
+            .collect();
+        let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
+        self.joined_text(&parts, at)
+    }
+
+    /// The strings one after another, within the limit.
+    pub fn joined_text(&mut self, parts: &[&str], at: Span) -> Eval<Value> {
+        let length: usize = parts.iter().map(|part| part.len()).sum();
+        if length > MAX_STRING {
+            let message =
+                format!("this string is longer than {MAX_STRING} bytes (limit MAX_STRING)");
+            return self.fail(Diagnostic::error(at, message));
+        }
+        self.tick(length as u64 / 32, at)?;
+        Ok(Value::Text(parts.concat().into()))
+    }
+
+    /// A number in [0, 1) from the bits of the arguments.
+    fn rand(&mut self, at: Span, given: &[Given]) -> Eval<Value> {
+        if given.is_empty() {
+            let error = Diagnostic::error(at, "`seed` of `rand` is missing");
+            return self
+                .fail(error.help("as in `rand(1, i)`: the same arguments give the same number"));
+        }
+        let mut state = 0u64;
+        for argument in given {
+            let Value::Number(x) = argument.value else {
+                return self.unfit(argument, "rand", "a number");
+            };
+            // Zero has one hash, whatever its sign.
+            state = mixed_bits(state ^ (x + 0.0).to_bits());
+        }
+        let unit = (state >> 11) as f64 / (1u64 << 53) as f64;
+        Ok(Value::Number(unit))
+    }
+
+    /// The field of a shape at a point, which may be that of a field that is being made.
+    fn at(&mut self, shape: &Given, point: &Given) -> Eval<Value> {
+        let node = self.shape(&shape.value, shape.span)?;
+        let quantity = point.value.quantity();
+        let is_planar = node.traits().is_planar;
+        let scalars = match quantity {
+            Some(q) if q.form == Form::Vector && (q.count == 3 || is_planar) => q.scalars,
+            _ => return self.unfit(point, "at", "a point [x, y, z]"),
+        };
+        self.tick(node.size(), point.span)?;
+        if let [Scalar::Known(x), Scalar::Known(y), Scalar::Known(z)] = scalars {
+            return Ok(Value::Number(node.evaluate(&Vec3::new(x, y, z))));
+        }
+        let ids = scalars.map(|scalar| self.id(scalar));
+        let id = self.builder().shape(&node, ids);
+        self.number(Scalar::Symbolic(id), point.span)
+    }
+
+    /// `trace(origin, direction)` through everything shown, or `shape.trace(origin, direction)`.
+    fn trace(&mut self, at: Span, given: &[Given<'a>]) -> Eval<Value> {
+        let (shown, rest) = match given {
+            [shape, origin, direction] => (
+                vec![self.shape(&shape.value, shape.span)?],
+                [origin, direction],
+            ),
+            [origin, direction] => (self.shown.clone(), [origin, direction]),
+            _ => {
+                let message = "`trace` takes an origin and a direction";
+                let help = "as in `trace([0, 0, 5], [0, 0, -1])`";
+                return self.fail(Diagnostic::error(at, message).help(help));
+            }
+        };
+        let origin = self.known_point(rest[0], "trace")?;
+        let direction = self.known_point(rest[1], "trace")?;
+        let length = direction.iter().fold(0.0, |n: f64, c| n.hypot(*c));
+        if length == 0.0 || !length.is_finite() || origin.iter().any(|c| !c.is_finite()) {
+            let message = "a ray needs a finite origin and a direction that is not zero";
+            return self.fail(Diagnostic::error(rest[1].span, message));
+        }
+        let size: u64 = shown.iter().map(|node| node.size()).sum();
+        self.tick(1000 + size, at)?;
+        let found = self.tracer.trace(&shown, &self.settings, origin, direction);
+        match found {
+            Ok(record) => Ok(Value::Trace(Arc::new(record))),
+            Err(problem) => self.fail(Diagnostic::error(at, problem)),
+        }
+    }
+}
+
+/// SplitMix64's output function: every bit of the input reaches every bit of the output. Source: Steele et al. 2014.
+fn mixed_bits(x: u64) -> u64 {
+    let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ (x >> 31)
+}
+
+/// The form of a function's value; none where it has no meaning for these arguments.
+fn function_form(function: Function, quantities: &[Quantity]) -> Option<(Form, usize)> {
+    let is_angle = |q: &Quantity| q.form == Form::Angle;
+    if !quantities.iter().any(is_angle) {
+        return quantities.iter().skip(1).try_fold(
+            (quantities[0].form, quantities[0].count),
+            |(form, count), q| match (form, q.form) {
+                (_, Form::Number) => Some((form, count)),
+                (Form::Number, _) => Some((q.form, q.count)),
+                (a, b) if a == b && count == q.count => Some((form, count)),
+                _ => None,
+            },
+        );
+    }
+    match function {
+        Function::Sin | Function::Cos | Function::Tan => Some((Form::Number, 1)),
+        Function::Abs | Function::Min | Function::Max | Function::Clamp | Function::Modulo
+            if quantities.iter().all(is_angle) =>
+        {
+            Some((Form::Angle, 1))
+        }
+        Function::Mix
+            if quantities[..2].iter().all(is_angle) && quantities[2].form == Form::Number =>
+        {
+            Some((Form::Angle, 1))
+        }
+        _ => None,
+    }
+}

@@ -4,7 +4,8 @@ use fieldstone::catalogue::*;
 use fieldstone::output::{Metadata, picture, save};
 use fieldstone::render::{Channel, Film, Progress, RenderOptions, Rendered, render};
 use fieldstone::scene::{
-    Camera, Falloff, Fog, Light, Material, Node, Projection, Scene, Shadow, Sky, Source, Term,
+    Camera, Falloff, Fog, Light, Material, Method, Node, Projection, Scene, Shadow, Sky, Source,
+    Term,
 };
 use fieldstone::trace::World;
 use glam::DVec3;
@@ -211,6 +212,52 @@ fn channels_say_what_a_ball_is() {
     assert_eq!(at(&film, Channel::Depth, 0, 0), f64::INFINITY);
     assert_eq!(at(&film, Channel::Verdict, 0, 0), 0.0);
     assert_eq!(at(&film, Channel::Object, 0, 0), -1.0);
+}
+
+#[test]
+fn no_convex_shape_shadows_itself() {
+    let shapes = [
+        Node::modifier(AnyModifier::Offset(Offset::new(0.3)), sphere(0.7, [0.0; 3])).unwrap(),
+        leaf(AnyPrimitive::Ellipsoid(Ellipsoid::new([1.0, 0.3, 0.6]))),
+        leaf(AnyPrimitive::Cuboid(Cuboid::new([1.2, 0.9, 1.0], 0.1))),
+        leaf(AnyPrimitive::Cylinder(Cylinder::new(0.7, 1.0))),
+        sphere(1.0, [0.0; 3]),
+    ];
+    let matt = Arc::new(Material {
+        color: Term::Constant(DVec3::ONE),
+        ambient: Term::Constant(0.0),
+        diffuse: Term::Constant(1.0),
+        specular: Term::Constant(0.0),
+        ..Material::default()
+    });
+    for (shape, method) in shapes
+        .iter()
+        .flat_map(|s| [(s, Method::Auto), (s, Method::Sphere)])
+    {
+        for degrees in [5, 40, 80, 120] {
+            let a = f64::from(degrees).to_radians();
+            let toward = DVec3::new(a.sin(), 0.0, a.cos());
+            let mut scene = lone_ball(Projection::Orthographic { height: 2.4 });
+            scene.shown = vec![shape.painted(matt.clone())];
+            scene.lights[0].source = Source::Directional { toward };
+            scene.settings.method = method;
+            let film = rendered(&scene, &everything()).film;
+            for (i, j) in (0..101).flat_map(|i| (0..101).map(move |j| (i, j))) {
+                if at(&film, Channel::Verdict, i, j) != 1.0 {
+                    continue;
+                }
+                let n = film.at(Channel::Normal, i, j);
+                let n = DVec3::new(f64::from(n[0]), f64::from(n[1]), f64::from(n[2]));
+                let seen = at(&film, Channel::Beauty, i, j);
+                let lambert = n.dot(toward).max(0.0);
+                assert!(
+                    (seen - lambert).abs() < 1e-6,
+                    "{} by {method:?}, light at {degrees}, pixel {i} {j}: {seen}, not {lambert}",
+                    shape.kind()
+                );
+            }
+        }
+    }
 }
 
 #[test]

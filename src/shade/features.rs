@@ -6,9 +6,7 @@ use std::sync::Arc;
 /// The stages that a scene compiles in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Features {
-    /// There are lights.
-    pub lights: bool,
-    /// Some material answers light.
+    /// There are lights, and some material answers them.
     pub lit: bool,
     /// Some material casts an opaque shadow.
     pub opaque_shadows: bool,
@@ -30,10 +28,9 @@ impl Features {
         let some = |has: &dyn Fn(&Material) -> bool| materials.iter().any(|m| has(m));
         let casts = |shadow| some(&|m| m.shadow == shadow);
         let refracts = some(&|m| !m.refract.is_zero());
-        let lights = !scene.lights.is_empty();
-        let lit = lights && some(&|m| !m.diffuse.is_zero() || !m.specular.is_zero());
+        let lit =
+            !scene.lights.is_empty() && some(&|m| !m.diffuse.is_zero() || !m.specular.is_zero());
         Self {
-            lights,
             lit,
             opaque_shadows: lit && casts(Shadow::Opaque),
             tinted_shadows: lit && casts(Shadow::Tinted),

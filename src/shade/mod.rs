@@ -25,4 +25,4 @@ pub use reflect::reflected;
 pub use refract::refracted;
 pub use surface::Surface;
 pub use surfaces::Surfaces;
-pub use whitted::{FAINTEST, Light, Whitted};
+pub use whitted::{FAINTEST, Received, Whitted};

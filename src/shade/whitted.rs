@@ -34,7 +34,7 @@ pub struct Whitted<'a, S: Surfaces + ?Sized> {
 
 /// What the eye receives along its rays.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Light {
+pub struct Received {
     /// The radiance along each ray, linear RGB.
     pub radiance: Vec<DVec3>,
     /// Whether the tracer could not tell what this ray, or one that it led to, hits.
@@ -93,8 +93,8 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
     }
 
     /// The light along camera rays that hit `outcomes`.
-    pub fn light(&self, rays: &[Ray], outcomes: &[Outcome], census: &mut Census) -> Light {
-        let mut light = Light {
+    pub fn light(&self, rays: &[Ray], outcomes: &[Outcome], census: &mut Census) -> Received {
+        let mut light = Received {
             radiance: vec![DVec3::ZERO; rays.len()],
             unknown: vec![false; rays.len()],
         };
@@ -115,7 +115,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         &self,
         wave: Wave,
         outcomes: &[Outcome],
-        light: &mut Light,
+        light: &mut Received,
         census: &mut Census,
     ) -> Vec<Wave> {
         let mut next = Waves::new(wave.depth + 1);

@@ -261,6 +261,46 @@ fn no_convex_shape_shadows_itself() {
 }
 
 #[test]
+fn clear_solids_vanish_under_an_even_sky() {
+    // All light gets out in the end: a ray that is lost at a boundary would be seen.
+    let shapes = [
+        sphere(1.0, [0.0; 3]),
+        Node::modifier(AnyModifier::Offset(Offset::new(0.3)), sphere(0.7, [0.0; 3])).unwrap(),
+        leaf(AnyPrimitive::Ellipsoid(Ellipsoid::new([1.0, 0.5, 0.8]))),
+        leaf(AnyPrimitive::Torus(Torus::new(0.7, 0.3))),
+        leaf(AnyPrimitive::Cuboid(Cuboid::new([1.2, 0.9, 1.0], 0.0))),
+    ];
+    let clear = Arc::new(Material {
+        color: Term::Constant(DVec3::ZERO),
+        ambient: Term::Constant(0.0),
+        diffuse: Term::Constant(0.0),
+        specular: Term::Constant(0.0),
+        refract: Term::Constant(1.0),
+        ..Material::default()
+    });
+    for (shape, method) in shapes
+        .iter()
+        .flat_map(|s| [(s, Method::Auto), (s, Method::Sphere)])
+    {
+        let mut scene = lone_ball(Projection::Perspective { fov: 0.6 });
+        scene.camera.eye = DVec3::new(1.0, 2.0, 3.0);
+        scene.shown = vec![shape.painted(clear.clone())];
+        scene.sky = Sky::uniform(DVec3::ONE);
+        scene.settings.depth = 64;
+        scene.settings.method = method;
+        let result = rendered(&scene, &everything());
+        let beauty = result.film.plane(Channel::Beauty).unwrap();
+        let dark = beauty.values.iter().filter(|x| **x != 1.0).count() as u64;
+        let s = &result.statistics;
+        let case = format!("{} by {method:?}", shape.kind());
+        assert_eq!(s.primary.unknown + s.unknown_secondary, 0, "{case}");
+        // Rays that run around inside of an ellipsoid, or enter by a rounded edge, may stay for ever.
+        assert_eq!(dark, 3 * s.rays.too_deep, "{case}");
+        assert!(s.rays.too_deep <= 2, "{case}");
+    }
+}
+
+#[test]
 fn a_ball_covers_the_area_of_its_silhouette() {
     // tan of the half angle is 1 / sqrt(15); pixels are 2 tan(fov/2) / 400 apart.
     let fov = 40f64.to_radians();

@@ -109,9 +109,19 @@ fn camera_ray<S: Surfaces + ?Sized>(shared: &Shared<S>, pixel: [u32; 2], sample:
         .ray(f64::from(pixel[0]) + dx, f64::from(pixel[1]) + dy)
 }
 
-/// The bits at even places, moved together.
+/// The bits at even places, moved together: pairs, then fours, and so on.
 fn even_bits(code: u64) -> u32 {
-    (0..32).fold(0, |x, bit| x | ((code >> (2 * bit)) as u32 & 1) << bit)
+    const HALVES: [(u32, u64); 5] = [
+        (1, 0x3333_3333_3333_3333),
+        (2, 0x0f0f_0f0f_0f0f_0f0f),
+        (4, 0x00ff_00ff_00ff_00ff),
+        (8, 0x0000_ffff_0000_ffff),
+        (16, 0x0000_0000_ffff_ffff),
+    ];
+    let even = code & 0x5555_5555_5555_5555;
+    HALVES
+        .iter()
+        .fold(even, |x, (shift, mask)| (x | x >> shift) & mask) as u32
 }
 
 /// The samples of a pixel so far.

@@ -43,9 +43,13 @@ fn highlight(surface: &Surface, normal: DVec3, toward: DVec3, view: DVec3) -> f6
     }
 }
 
+/// Highlights below `exp` of this are 0: 2^-53, what rounding would take from a full one anyway.
+const FAINTEST_LOG: f64 = -36.7;
+
 /// `cosine^exponent` in front, 0 behind; also where the exponent is 0, for which a plain power would give 0^0 = 1.
 fn lobe(cosine: f64, exponent: f64) -> f64 {
-    if cosine > 0.0 {
+    // ln c <= c - 1 bounds the power from above: most points need none, a tenth of the time of three spheres.
+    if cosine > 0.0 && exponent * (cosine - 1.0) > FAINTEST_LOG {
         libm::pow(cosine.min(1.0), exponent)
     } else {
         0.0

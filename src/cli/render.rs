@@ -1,0 +1,276 @@
+//! `fieldstone render`: a picture of a scene.
+
+use super::console::{say, say_line, say_warning};
+use super::failure::{Failure, reason};
+use super::interrupt;
+use super::progress::Reporter;
+use super::script::{Script, compile};
+use super::stats::{self, Stages, timed};
+use super::tracing::Tracing;
+use super::value;
+use crate::lang::Loaded;
+use crate::output::{self, Metadata, Saved};
+use crate::render::{self, Channel, RenderOptions, Rendered};
+use crate::scene::{Scene, Settings};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+
+const AFTER_HELP: &str = "\
+The picture is a PNG with the script's name, the values of its parameters, the settings and the version in its \
+text. Without -o it is named after the script and lies in the current folder: `fieldstone render art/arch.sdf` \
+writes arch.png. A single channel goes to that file; of several, beauty does, and each other one lies beside it, as \
+in arch.depth.png. Files are written whole or not at all.
+
+Examples:
+  fieldstone render scene.sdf
+  fieldstone render scene.sdf -o big.png --size 1920x1080 --samples 16
+  fieldstone render scene.sdf -D teeth=30 -D gap=0.2
+  fieldstone render scene.sdf --channel beauty,steps,verdict --stats stats.json";
+
+/// Render a scene to a PNG
+#[derive(Args, Debug)]
+#[command(after_help = AFTER_HELP)]
+pub struct Arguments {
+    #[command(flatten)]
+    script: Script,
+    /// The picture's file [default: the script's name with .png, in the current folder]
+    #[arg(short, long, value_name = "OUT.png")]
+    output: Option<PathBuf>,
+    /// Width and height in pixels, up to 32768 each [default: what the script says, or else 640x360]
+    #[arg(long, value_name = "WxH", value_parser = value::size, allow_hyphen_values = true)]
+    size: Option<[u32; 2]>,
+    /// Rays per pixel [default: what the script says, or else 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536), allow_negative_numbers = true)]
+    samples: Option<u32>,
+    /// How often a ray may be reflected or refracted [default: what the script says, or else 8]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1000), allow_negative_numbers = true)]
+    depth: Option<u32>,
+    #[command(flatten)]
+    tracing: Tracing,
+    /// Threads that work at once [default: one for each processor]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
+    threads: Option<u16>,
+    /// What is recorded of each pixel, one or more
+    #[arg(long, value_name = "NAME[,NAME]", value_delimiter = ',', default_value = "beauty", value_parser = channel())]
+    channel: Vec<Channel>,
+    /// Write counts and times to this file
+    #[arg(long, value_name = "FILE.json")]
+    stats: Option<PathBuf>,
+    /// Say nothing but warnings and errors
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+fn channel() -> impl TypedValueParser<Value = Channel> {
+    let values = Channel::ALL.map(|c| PossibleValue::new(c.name()).help(c.summary()));
+    PossibleValuesParser::new(values)
+        .map(|name| Channel::from_name(&name).expect("the parser takes only names of channels"))
+}
+
+/// Renders the scene and writes its picture.
+///
+/// # Errors
+/// If the script is wrong, a file can't be written, or the user stops it; then no half-written file is left.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let path = picture_path(arguments)?;
+    [Some(&path), arguments.stats.as_ref()]
+        .into_iter()
+        .flatten()
+        .try_for_each(|path| has_folder(path))?;
+    let mut stages = Stages::default();
+    let (loaded, milliseconds) = timed(|| arguments.script.load());
+    let mut loaded = loaded?;
+    stages.load = milliseconds;
+    apply(arguments, &mut loaded.scene.settings);
+    let (world, milliseconds) = timed(|| compile(&loaded.scene));
+    let world = world?;
+    stages.compile = milliseconds;
+    let rendered = rendered(arguments, &loaded.scene, &world)?;
+    let metadata = metadata(arguments, &loaded);
+    let (saved, milliseconds) = timed(|| output::save(&rendered.film, &path, &metadata));
+    let saved = saved.map_err(|error| Failure::writing(&quoted(&error.path), &error.source))?;
+    stages.write = milliseconds;
+    if let Some(path) = &arguments.stats {
+        let name = script_name(arguments);
+        stats::to_json(&rendered.statistics, &stages, &name, &loaded.parameters)
+            .map_err(io::Error::other)
+            .and_then(|text| output::write(path, text.as_bytes()))
+            .map_err(|error| Failure::writing(&quoted(path), &error))?;
+    }
+    tell(arguments, &rendered, &stages, &saved);
+    Ok(())
+}
+
+/// Renders with a report of progress, until it is done or the user stops it.
+fn rendered(
+    arguments: &Arguments,
+    scene: &Scene,
+    world: &crate::trace::World,
+) -> Result<Rendered, Failure> {
+    let cancel = interrupt::listen();
+    let reporter = Reporter::new(arguments.quiet);
+    let rendered = render::render(
+        scene,
+        world,
+        &RenderOptions {
+            channels: &arguments.channel,
+            threads: arguments.threads.map_or(0, usize::from),
+            progress: Some(&|progress| reporter.tell(progress)),
+            cancel: Some(cancel),
+            ..RenderOptions::default()
+        },
+    );
+    reporter.end();
+    if rendered.cancelled || cancel.load(Ordering::Relaxed) {
+        return Err(Failure::Interrupted);
+    }
+    Ok(rendered)
+}
+
+/// Puts what was asked for into the settings.
+fn apply(arguments: &Arguments, settings: &mut Settings) {
+    settings.size = arguments.size.unwrap_or(settings.size);
+    settings.samples = arguments.samples.unwrap_or(settings.samples);
+    settings.depth = arguments.depth.unwrap_or(settings.depth);
+    arguments.tracing.apply(settings);
+}
+
+/// What was written, what it took, and what is to be looked at.
+fn tell(arguments: &Arguments, rendered: &Rendered, stages: &Stages, saved: &[Saved]) {
+    let statistics = &rendered.statistics;
+    if !arguments.quiet {
+        for file in saved {
+            say_line(&format!(
+                "wrote {} ({})",
+                file.path.display(),
+                file.channel.name()
+            ));
+        }
+        say(&stats::summary(statistics, stages));
+    }
+    for file in saved.iter().filter(|file| file.not_a_number > 0) {
+        let (path, n) = (file.path.display(), file.not_a_number);
+        say_warning(&format!(
+            "in {path}, {n} pixels are not a number; they are black"
+        ));
+    }
+    if let Some(warning) = stats::warning(statistics) {
+        say_warning(&warning);
+    }
+}
+
+/// Where the picture goes.
+fn picture_path(arguments: &Arguments) -> Result<PathBuf, Failure> {
+    let path = match &arguments.output {
+        Some(path) => path.clone(),
+        None => default_path(&arguments.script.path),
+    };
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        None | Some("png") => Ok(path),
+        Some(other) => Err(Failure::Usage(format!(
+            "pictures are written as PNG, not as .{other}; write `-o {}`",
+            path.with_extension("png").display()
+        ))),
+    }
+}
+
+/// The script's name with `.png`, in the current folder.
+fn default_path(script: &Path) -> PathBuf {
+    let stem = script.file_stem().unwrap_or("scene".as_ref());
+    let mut name = stem.to_os_string();
+    name.push(".png");
+    PathBuf::from(name)
+}
+
+/// Says before the work, and not after it, that a file could not be written.
+fn has_folder(path: &Path) -> Result<(), Failure> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => return Ok(()),
+    };
+    let error = match folder.metadata() {
+        Ok(metadata) if metadata.is_dir() => return Ok(()),
+        Ok(_) => "it is not a folder".into(),
+        Err(error) => reason(&error),
+    };
+    let (file, folder) = (path.display(), folder.display());
+    Err(Failure::Other(format!(
+        "cannot write `{file}`: the folder `{folder}`: {error}"
+    )))
+}
+
+fn quoted(path: &Path) -> String {
+    format!("`{}`", path.display())
+}
+
+fn script_name(arguments: &Arguments) -> String {
+    let path = &arguments.script.path;
+    path.file_name()
+        .unwrap_or(path.as_os_str())
+        .to_string_lossy()
+        .into_owned()
+}
+
+/// What the picture says about itself: the script by its name alone, so that no folder of this machine gets out.
+fn metadata(arguments: &Arguments, loaded: &Loaded) -> Metadata {
+    let parameters: Vec<String> = loaded
+        .parameters
+        .iter()
+        .map(|(name, value)| format!("{name}={value}"))
+        .collect();
+    Metadata {
+        source: script_name(arguments),
+        parameters: parameters.join(" "),
+        settings: settings_in_words(&loaded.scene.settings),
+    }
+}
+
+fn settings_in_words(s: &Settings) -> String {
+    let [width, height] = s.size;
+    format!(
+        "size={width}x{height} samples={} depth={} tolerance={} max_steps={} method={} seed={}",
+        s.samples,
+        s.depth,
+        s.tolerance,
+        s.max_steps,
+        s.method.name(),
+        s.seed
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn picture_is_named_after_the_script_in_the_current_folder() {
+        assert_eq!(
+            default_path(Path::new("a/b.c/arch.sdf")),
+            Path::new("arch.png")
+        );
+        assert_eq!(default_path(Path::new("arch")), Path::new("arch.png"));
+        assert_eq!(default_path(Path::new("v1.2.sdf")), Path::new("v1.2.png"));
+    }
+
+    #[test]
+    fn missing_folder_is_named() {
+        let error = has_folder(Path::new("no/such/folder/a.png")).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "cannot write `no/such/folder/a.png`: the folder `no/such/folder`: there is no such file or folder"
+        );
+        assert!(has_folder(Path::new("a.png")).is_ok());
+    }
+
+    #[test]
+    fn settings_are_told_in_the_words_of_the_options() {
+        assert_eq!(
+            settings_in_words(&Settings::default()),
+            "size=640x360 samples=1 depth=8 tolerance=0.1 max_steps=1024 method=auto seed=0"
+        );
+    }
+}

@@ -307,7 +307,26 @@ fn full_disk_is_an_error() {
     );
 }
 
-#[cfg(unix)]
+/// Waits until the process of this number listens for Ctrl-C: signal 2, the second bit of those that it catches.
+#[cfg(target_os = "linux")]
+fn wait_until_it_listens(pid: &str) {
+    let listens = || {
+        let status = fs::read_to_string(format!("/proc/{pid}/status")).unwrap();
+        let caught = status.lines().find_map(|l| l.strip_prefix("SigCgt:"));
+        let caught = u64::from_str_radix(caught.unwrap().trim(), 16).unwrap();
+        caught & 2 != 0
+    };
+    let start = Instant::now();
+    while !listens() {
+        assert!(
+            start.elapsed() < Duration::from_secs(60),
+            "it never listens"
+        );
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+#[cfg(target_os = "linux")]
 #[test]
 fn interruption_leaves_nothing() {
     let folder = Folder::with_scene("interrupt");
@@ -321,7 +340,7 @@ fn interruption_leaves_nothing() {
     ];
     let child = piped(&mut folder.command(&arguments));
     let pid = child.id().to_string();
-    std::thread::sleep(Duration::from_millis(700));
+    wait_until_it_listens(&pid);
     let sent = Command::new("kill").args(["-INT", &pid]).status().unwrap();
     assert!(sent.success());
     let answer = Answer::of(child.wait_with_output().unwrap()).expect(130);

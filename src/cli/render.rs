@@ -79,7 +79,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     [Some(&path), arguments.stats.as_ref()]
         .into_iter()
         .flatten()
-        .try_for_each(|path| has_folder(path))?;
+        .try_for_each(|path| has_place(path))?;
     let mut stages = Stages::default();
     let (loaded, milliseconds) = timed(|| arguments.script.load());
     let mut loaded = loaded?;
@@ -187,7 +187,13 @@ fn default_path(script: &Path) -> PathBuf {
 }
 
 /// Says before the work, and not after it, that a file could not be written.
-fn has_folder(path: &Path) -> Result<(), Failure> {
+fn has_place(path: &Path) -> Result<(), Failure> {
+    let file = path.display();
+    if path.is_dir() {
+        return Err(Failure::Other(format!(
+            "cannot write `{file}`: it is a folder"
+        )));
+    }
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => return Ok(()),
@@ -197,7 +203,7 @@ fn has_folder(path: &Path) -> Result<(), Failure> {
         Ok(_) => "it is not a folder".into(),
         Err(error) => reason(&error),
     };
-    let (file, folder) = (path.display(), folder.display());
+    let folder = folder.display();
     Err(Failure::Other(format!(
         "cannot write `{file}`: the folder `{folder}`: {error}"
     )))
@@ -258,12 +264,12 @@ mod tests {
 
     #[test]
     fn missing_folder_is_named() {
-        let error = has_folder(Path::new("no/such/folder/a.png")).unwrap_err();
+        let error = has_place(Path::new("no/such/folder/a.png")).unwrap_err();
         assert_eq!(
             error.to_string(),
             "cannot write `no/such/folder/a.png`: the folder `no/such/folder`: there is no such file or folder"
         );
-        assert!(has_folder(Path::new("a.png")).is_ok());
+        assert!(has_place(Path::new("a.png")).is_ok());
     }
 
     #[test]

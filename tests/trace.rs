@@ -556,3 +556,29 @@ fn constant_of_the_gyroid_is_derived() {
         core.lipschitz()
     );
 }
+
+#[test]
+fn overlapping_glass_is_one_body() {
+    use fieldstone::scene::{Material, Term};
+    let glass = std::sync::Arc::new(Material {
+        refract: Term::Constant(1.0),
+        ..Material::default()
+    });
+    // Two unit boxes that share the face x = 0, and a third one apart.
+    let boxes = [-0.5, 0.5, 3.0]
+        .map(|x| moved(&cuboid([1.0; 3], 0.0), [x, 0.0, 0.0]).painted(glass.clone()));
+    let world = World::of(&boxes, &Settings::default()).expect("a world");
+    assert_eq!(world.parts(), 2);
+    // From inside the left box the way out is the far face of the right one.
+    let out = world.nearest(&[ray([-0.9, 0.1, 0.1], [1.0, 0.0, 0.0])], Visibility::All)[0];
+    assert!((out.t - 1.9).abs() < 1e-9, "{out:?}");
+    // Of different materials, both surfaces are there.
+    let other = std::sync::Arc::new(Material {
+        refract: Term::Constant(1.0),
+        ..Material::default()
+    });
+    let right = moved(&cuboid([1.0; 3], 0.0), [0.5, 0.0, 0.0]).painted(other);
+    let world = World::of(&[boxes[0].clone(), right], &Settings::default()).expect("a world");
+    let out = world.nearest(&[ray([-0.9, 0.1, 0.1], [1.0, 0.0, 0.0])], Visibility::All)[0];
+    assert!((out.t - 0.9).abs() < 1e-9, "{out:?}");
+}

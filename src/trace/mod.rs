@@ -6,6 +6,7 @@
 
 pub mod analytic;
 mod hierarchy;
+mod join;
 mod march;
 mod method;
 mod outcome;

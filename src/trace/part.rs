@@ -2,9 +2,7 @@
 
 use super::analytic::{Ball, Facet, HalfSpace};
 use crate::catalogue::Modifier;
-use crate::catalogue::{
-    AnyBlend, AnyPrimitive, Bounds, Combination, Operation, Similarity, with_modifier,
-};
+use crate::catalogue::{AnyPrimitive, Bounds, Combination, Operation, Similarity, with_modifier};
 use crate::field::{Closure, Level, compile, compile_wide};
 use crate::num::{Dual, F64x32};
 use crate::scene::{Fault, Material, Node, Shadow, Shape};
@@ -264,49 +262,4 @@ pub fn materials(
         }
     }
     children.iter().for_each(|c| materials(c, here, found));
-}
-
-/// Joins shapes of the same transparent material that overlap, so that no surface is seen inside of them.
-pub fn joined(nodes: Vec<Arc<Node>>) -> Vec<Arc<Node>> {
-    let mut out: Vec<Arc<Node>> = Vec::with_capacity(nodes.len());
-    for node in nodes {
-        let Some(material) = transparent(&node) else {
-            out.push(node);
-            continue;
-        };
-        // Everything that overlaps becomes one, and what that overlaps in turn.
-        let mut group = vec![node];
-        let mut i = 0;
-        while i < group.len() {
-            let bounds = group[i].bounds();
-            let (meets, rest): (Vec<_>, Vec<_>) = out.into_iter().partition(|other| {
-                transparent(other).is_some_and(|m| Arc::ptr_eq(&m, &material))
-                    && !other.bounds().intersect(bounds).is_empty()
-            });
-            out = rest;
-            group.extend(meets);
-            i += 1;
-        }
-        let union = Combination {
-            operation: Operation::Union,
-            blend: AnyBlend::HARD,
-        };
-        match Node::combination(union, group.clone()) {
-            Ok(whole) => out.push(whole),
-            Err(_) => out.extend(group),
-        }
-    }
-    out
-}
-
-/// The material of a shape that has only one and lets light through.
-fn transparent(node: &Node) -> Option<Arc<Material>> {
-    let mut found = Vec::new();
-    materials(node, None, &mut found);
-    match &found[..] {
-        [Some(material)] if !material.refract.is_zero() && !node.traits().is_sheet => {
-            Some(material.clone())
-        }
-        _ => None,
-    }
 }

@@ -1,9 +1,10 @@
 //! The world: a scene that is ready to be traced.
 
 use super::hierarchy::{Hierarchy, clip};
+use super::join::joined;
 use super::march::{Job, Walked, march};
 use super::method::{Certified, Convex, Ending, Segment, SphereTracing};
-use super::part::{Marched, Part, PartKind, flatten, joined};
+use super::part::{Marched, Part, PartKind, flatten};
 use super::{Occlusion, Outcome, Ray, Verdict};
 use crate::catalogue::Bounds;
 use crate::field::{Level, normal, shares};
@@ -102,20 +103,9 @@ impl World {
         for (item, node) in shown.iter().enumerate() {
             pieces.extend(flatten(node).into_iter().map(|piece| (item as u32, piece)));
         }
-        let items: Vec<u32> = pieces.iter().map(|(item, _)| *item).collect();
-        let nodes = joined(pieces.into_iter().map(|(_, node)| node).collect());
-        let is_whole = nodes.len() == items.len();
-        let parts = nodes
+        let parts = joined(pieces)
             .into_iter()
-            .enumerate()
-            .map(|(i, node)| {
-                Part::new(
-                    node,
-                    if is_whole { items[i] } else { i as u32 },
-                    is_auto,
-                    level,
-                )
-            })
+            .map(|(item, node)| Part::new(node, item, is_auto, level))
             .collect::<Result<Vec<_>, _>>()?;
         Ok(Self::of_parts(parts, *settings))
     }

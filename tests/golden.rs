@@ -41,7 +41,7 @@ fn rendered(path: &Path) -> (RgbImage, u64) {
     };
     let done = render(&loaded.scene, &world, &options);
     let picture = picture(&done.film, Channel::Beauty).expect("beauty was recorded");
-    (picture.image, done.statistics.verdicts.unknown)
+    (picture.image, done.statistics.unknown_pixels)
 }
 
 /// Expected, where they differ, actual: side by side.

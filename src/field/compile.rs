@@ -14,20 +14,30 @@ pub type Closure<N> = Box<dyn Fn(&Vec3<N>) -> N + Send + Sync>;
 
 /// The field of `node` as a closure without special instructions: for scalars, duals and intervals.
 pub fn compile<N: Number>(node: &Node) -> Closure<N> {
-    baseline::build(node)
+    baseline::build::<N, true>(node)
 }
 
 /// The field of `node` as a closure that uses the instructions of `level`, or of the best level below it that the
 /// processor has: for wide lanes and duals of them.
 pub fn compile_wide<N: Number>(node: &Node, level: Level) -> Closure<N> {
+    at_level::<N, true>(node, level)
+}
+
+/// As [`compile_wide`], for a convex field: no user's field is convex, so there is none in it, and the code for graphs is
+/// not made for `N` (it would be a third of the library's build).
+pub fn compile_convex<N: Number>(node: &Node, level: Level) -> Closure<N> {
+    at_level::<N, false>(node, level)
+}
+
+fn at_level<N: Number, const GRAPHS: bool>(node: &Node, level: Level) -> Closure<N> {
     match level.min(Level::supported()) {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: `Level::supported` has detected every feature of the module.
-        Level::Avx512 => unsafe { avx512::build(node) },
+        Level::Avx512 => unsafe { avx512::build::<N, GRAPHS>(node) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Level::Avx2 => unsafe { avx2::build(node) },
-        _ => baseline::build(node),
+        Level::Avx2 => unsafe { avx2::build::<N, GRAPHS>(node) },
+        _ => baseline::build::<N, GRAPHS>(node),
     }
 }
 
@@ -47,7 +57,7 @@ macro_rules! builders {
 
             /// The closure of a node: transforms that keep angles are folded into one.
             $(#[$feature])*
-            pub(super) fn build<N: Number>(node: &Node) -> Closure<N> {
+            pub(super) fn build<N: Number, const GRAPHS: bool>(node: &Node) -> Closure<N> {
                 let mut map = Similarity::IDENTITY;
                 let mut inner = node;
                 while let Shape::Modifier(modifier, child) = inner.shape() {
@@ -58,23 +68,25 @@ macro_rules! builders {
                 if let Shape::Primitive(primitive) = inner.shape() {
                     return with_primitive!(primitive, p => leaf(p.clone(), map));
                 }
-                let child = warped(inner);
+                let child = warped::<N, GRAPHS>(inner);
                 if map == Similarity::IDENTITY { child } else { placed(child, map) }
             }
 
             $(#[$feature])*
-            fn warped<N: Number>(node: &Node) -> Closure<N> {
+            fn warped<N: Number, const GRAPHS: bool>(node: &Node) -> Closure<N> {
                 match node.shape() {
                     Shape::Primitive(primitive) => {
                         with_primitive!(primitive, p => leaf(p.clone(), Similarity::IDENTITY))
                     }
-                    Shape::Field(field) => graph(field),
+                    Shape::Field(field) if GRAPHS => graph(field),
+                    // Not a number: a walk that meets it ends as unknown.
+                    Shape::Field(_) => Box::new(|_: &Vec3<N>| N::splat(f64::NAN)),
                     Shape::Combination(combination, children) => {
-                        let children = children.iter().map(|c| build(c)).collect();
+                        let children = children.iter().map(|c| build::<N, GRAPHS>(c)).collect();
                         with_blend!(&combination.blend, b => joined(combination.operation, b.clone(), children))
                     }
                     Shape::Modifier(modifier, child) => {
-                        let child = build(child);
+                        let child = build::<N, GRAPHS>(child);
                         with_modifier!(modifier, m => modified(m.clone(), child))
                     }
                 }
@@ -140,7 +152,7 @@ macro_rules! builders {
 
             $(#[$feature])*
             fn graph<N: Number>(field: &Arc<FieldShape>) -> Closure<N> {
-                let shapes: Vec<Closure<N>> = field.graph.shapes().iter().map(|s| build(s)).collect();
+                let shapes: Vec<Closure<N>> = field.graph.shapes().iter().map(|s| build::<N, true>(s)).collect();
                 let field = field.clone();
                 Box::new(move |p: &Vec3<N>| {
                     // Few registers live on the stack; one walk serves both, or the code would double.

@@ -5,7 +5,7 @@ mod gradient;
 mod paint;
 mod processor;
 
-pub use compile::{Closure, compile, compile_wide};
+pub use compile::{Closure, compile, compile_convex, compile_wide};
 pub use gradient::normal;
 pub use paint::{Share, shares};
 pub use processor::Level;

@@ -9,7 +9,7 @@
 //! A wave is all rays of one depth; each knows the pixel sample that it adds to and by which weight. Rays of a sample
 //! keep their order, so the sum of a sample has the same bits however the samples are batched. Source: Whitted 1980.
 
-use super::attenuation::{absorbed, through_fog};
+use super::attenuation::{absorbed, sight, through_fog};
 use super::light::Lamp;
 use super::meeting::{Meeting, Onward};
 use super::shadow::{ShadowRays, passages};
@@ -68,9 +68,22 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         self.features
     }
 
+    /// The first surface on each ray, as far as one sees through the fog.
+    fn nearest(&self, rays: &[Ray]) -> Vec<Outcome> {
+        let Some(fog) = &self.fog else {
+            return self.surfaces.nearest(rays, Visibility::All);
+        };
+        let seen = |ray: &Ray| Ray {
+            t_max: ray.t_max.min(sight(fog)),
+            ..*ray
+        };
+        let rays: Vec<Ray> = rays.iter().map(seen).collect();
+        self.surfaces.nearest(&rays, Visibility::All)
+    }
+
     /// What the camera rays hit.
     pub fn first_hits(&self, rays: &[Ray], census: &mut Census) -> Vec<Outcome> {
-        let outcomes = census.timed(|| self.surfaces.nearest(rays, Visibility::All));
+        let outcomes = census.timed(|| self.nearest(rays));
         census.primary += rays.len() as u64;
         for outcome in &outcomes {
             census.evaluations += u64::from(outcome.evaluations);
@@ -100,7 +113,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         };
         let mut waiting = self.shade(Wave::from_camera(rays), outcomes, &mut light, census);
         while let Some(wave) = waiting.pop() {
-            let outcomes = census.timed(|| self.surfaces.nearest(&wave.rays, Visibility::All));
+            let outcomes = census.timed(|| self.nearest(&wave.rays));
             for outcome in &outcomes {
                 census.evaluations += u64::from(outcome.evaluations);
                 census.unknown_secondary += u64::from(outcome.verdict == Verdict::Unknown);

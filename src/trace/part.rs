@@ -3,7 +3,7 @@
 use super::analytic::{Ball, Facet, HalfSpace};
 use crate::catalogue::Modifier;
 use crate::catalogue::{AnyPrimitive, Bounds, Combination, Operation, Similarity, with_modifier};
-use crate::field::{Closure, Level, compile, compile_wide};
+use crate::field::{Closure, Level, compile, compile_convex, compile_wide};
 use crate::num::{Dual, F64x32};
 use crate::scene::{Fault, Material, Node, Shadow, Shape};
 use glam::DVec3;
@@ -135,8 +135,8 @@ impl Marched {
         }
         let slope =
             (is_auto && node.traits().is_convex && !node.traits().is_sheet).then(|| Slope {
-                wide: compile_wide(node, level),
-                single: compile(node),
+                wide: compile_convex(node, level),
+                single: compile_convex(node, Level::Baseline),
             });
         Ok(Self {
             region,

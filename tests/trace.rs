@@ -582,3 +582,21 @@ fn overlapping_glass_is_one_body() {
     let out = world.nearest(&[ray([-0.9, 0.1, 0.1], [1.0, 0.0, 0.0])], Visibility::All)[0];
     assert!((out.t - 0.9).abs() < 1e-9, "{out:?}");
 }
+
+#[test]
+fn rays_inside_of_convex_shapes_find_the_far_side() {
+    // Also those that graze a face from within, where steps of sphere tracing would be as short as the gap.
+    let slab = cuboid([2.0, 1.0, 1.0], 0.1);
+    let world = world(&slab, Method::Auto);
+    for exponent in 1..=12 {
+        let y = 0.5 - 10f64.powi(-exponent);
+        let out = world.nearest(&[ray([-0.8, y, 0.0], [1.0, 0.0, 0.0])], Visibility::All)[0];
+        // The far side there: the rounded edge, a circle of radius 0.1 around (0.9, 0.4).
+        let expected = 0.8 + 0.9 + (0.01 - (y - 0.4).max(0.0).powi(2)).max(0.0).sqrt();
+        assert_eq!(out.verdict, Verdict::Hit, "gap 1e-{exponent}");
+        assert!(
+            (out.t - expected).abs() < 1e-7 && out.steps < 64,
+            "gap 1e-{exponent}: {out:?}"
+        );
+    }
+}

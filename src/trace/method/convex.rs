@@ -2,19 +2,28 @@
 //!
 //! Along a ray a convex field is a convex function: its tangent lies below it. So from outside, the tangent's root is
 //! never behind the surface, and where the slope is not negative the ray never meets it. Convergence is quadratic, and
-//! a ray that leaves a surface knows so after one step. A ray that starts inside walks by certified sphere tracing.
-//! Source: forward inclusion by tangents, Aydinlilar and Zanni 2023.
+//! a ray that leaves a surface knows so after one step. A ray that starts inside comes back from the end of its segment,
+//! where it is outside again, in the same way. Source: forward inclusion by tangents, Aydinlilar and Zanni 2023.
 
 use super::{Certified, Ending, Segment, Walk};
 use crate::trace::Verdict;
+
+/// Which way the walk goes.
+enum Way {
+    /// From outside, towards the entry.
+    Ahead,
+    /// From the end of the segment, back to the exit.
+    Back,
+    /// By sphere tracing, where there is no end to come back from.
+    Marching(Certified),
+}
 
 /// A walk by tangents.
 pub struct Convex {
     segment: Segment,
     t: f64,
     steps: u32,
-    /// The walk of a ray that started inside.
-    inside: Option<Certified>,
+    way: Way,
     noise: f64,
 }
 
@@ -27,6 +36,74 @@ impl Convex {
             steps: self.steps,
         })
     }
+
+    /// The smallest difference of distances that rounding leaves.
+    fn finest(&self) -> f64 {
+        4.0 * f64::EPSILON * self.segment.size.max(self.t)
+    }
+
+    fn hit(&self, value: f64, slope: f64) -> Option<Ending> {
+        let error = (self.noise / slope.abs()).max((value / slope).abs());
+        let error = error.min(self.segment.epsilon(self.t)).max(self.finest());
+        self.end(Verdict::Hit, self.t, error)
+    }
+
+    /// A ray whose first value is not positive starts inside, or on the surface.
+    fn start_inside(&mut self, value: f64, slope: f64) -> Option<Ending> {
+        let leaves = value >= -self.noise && slope >= 0.0;
+        if leaves && self.t == 0.0 {
+            return self.end(Verdict::Miss, self.segment.end, 0.0);
+        }
+        if self.segment.end.is_finite() {
+            (self.way, self.t) = (Way::Back, self.segment.end);
+            return None;
+        }
+        let mut walk = Certified::begin(self.segment);
+        let ending = walk.observe(value, slope);
+        self.way = Way::Marching(walk);
+        ending
+    }
+
+    fn ahead(&mut self, value: f64, slope: f64) -> Option<Ending> {
+        if value <= 0.0 && self.steps == 1 {
+            return self.start_inside(value, slope);
+        }
+        if value > 0.0 && slope >= 0.0 {
+            return self.end(Verdict::Miss, self.segment.end, 0.0);
+        }
+        let step = -value / slope;
+        if value <= 0.0 || step <= self.finest() {
+            return self.hit(value, slope);
+        }
+        if self.t + step > self.segment.end {
+            return self.end(Verdict::Miss, self.segment.end, 0.0);
+        }
+        self.t += step;
+        None
+    }
+
+    fn back(&mut self, value: f64, slope: f64) -> Option<Ending> {
+        let is_at_end = self.t == self.segment.end;
+        if is_at_end && value <= 0.0 {
+            return self.end(Verdict::Miss, self.segment.end, 0.0);
+        }
+        let step = value / slope;
+        if value <= 0.0 || step <= self.finest() {
+            // What the ray starts on is no hit.
+            let is_start = self.t <= self.segment.start + 4.0 * self.finest();
+            return if is_start {
+                self.end(Verdict::Miss, self.segment.end, 0.0)
+            } else {
+                self.hit(value, slope)
+            };
+        }
+        // Outside, a convex function that was negative before can only rise; rounding may hide that in a corner.
+        if slope.is_nan() || slope <= 0.0 {
+            return self.end(Verdict::Unknown, self.segment.start, f64::INFINITY);
+        }
+        self.t = (self.t - step).max(self.segment.start);
+        None
+    }
 }
 
 impl Walk for Convex {
@@ -37,49 +114,29 @@ impl Walk for Convex {
             segment,
             t: segment.start,
             steps: 0,
-            inside: None,
+            way: Way::Ahead,
             noise: segment.noise(),
         }
     }
 
     fn t(&self) -> f64 {
-        self.inside.as_ref().map_or(self.t, Walk::t)
+        match &self.way {
+            Way::Marching(walk) => walk.t(),
+            _ => self.t,
+        }
     }
 
     fn observe(&mut self, value: f64, slope: f64) -> Option<Ending> {
-        if let Some(walk) = &mut self.inside {
+        if let Way::Marching(walk) = &mut self.way {
             return walk.observe(value, slope);
         }
         self.steps += 1;
-        if value.is_nan() || slope.is_nan() {
-            return self.end(Verdict::Unknown, self.t, f64::INFINITY);
+        if value.is_nan() || slope.is_nan() || self.steps > self.segment.max_steps {
+            return self.end(Verdict::Unknown, self.segment.start, f64::INFINITY);
         }
-        if value <= 0.0 && self.steps == 1 {
-            let mut walk = Certified::begin(self.segment);
-            let ending = walk.observe(value, slope);
-            self.inside = Some(walk);
-            return ending;
+        match self.way {
+            Way::Ahead => self.ahead(value, slope),
+            _ => self.back(value, slope),
         }
-        let finest = 4.0 * f64::EPSILON * self.segment.size.max(self.t);
-        if value > 0.0 && slope >= 0.0 {
-            return self.end(Verdict::Miss, self.segment.end, 0.0);
-        }
-        let step = -value / slope;
-        if value <= 0.0 || step <= finest {
-            let error = (self.noise / slope.abs()).max(step.abs()).max(finest);
-            return self.end(
-                Verdict::Hit,
-                self.t,
-                error.min(self.segment.epsilon(self.t).max(finest)),
-            );
-        }
-        if self.t + step > self.segment.end {
-            return self.end(Verdict::Miss, self.segment.end, 0.0);
-        }
-        if self.steps >= self.segment.max_steps {
-            return self.end(Verdict::Unknown, self.t, f64::INFINITY);
-        }
-        self.t += step;
-        None
     }
 }

@@ -326,6 +326,15 @@ fn step<N: Number>(
     }
 }
 
+/// Lipschitz constants of a graph that were derived already.
+#[derive(Debug, Default)]
+struct Derived {
+    /// The constants by region.
+    known: Vec<(Bounds, f64)>,
+    /// How many operations they took.
+    effort: u64,
+}
+
 /// A finished list of operations on a point, with one output for a number and three for a colour.
 #[derive(Clone, Debug)]
 pub struct Graph {
@@ -334,7 +343,7 @@ pub struct Graph {
     outputs: Vec<u32>,
     shapes: Vec<Arc<Node>>,
     periods: [Option<f64>; 3],
-    derived: Arc<Mutex<Vec<(Bounds, f64)>>>,
+    derived: Arc<Mutex<Derived>>,
 }
 
 impl Graph {
@@ -348,15 +357,31 @@ impl Graph {
         &self.shapes
     }
 
-    /// What `derive` gives for a region: found once, and then remembered with all clones of the graph.
-    pub(super) fn remembered(&self, region: Bounds, derive: impl FnOnce() -> f64) -> f64 {
-        let mut known = self.derived.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, lipschitz)) = known.iter().find(|(r, _)| *r == region) {
+    /// What `derive` gives for a region or one that is larger by at most twice `slack`: found once, with the number of
+    /// boxes that it took, and then remembered with all clones of the graph.
+    pub(super) fn remembered(
+        &self,
+        region: Bounds,
+        slack: f64,
+        derive: impl FnOnce(Bounds) -> (f64, usize),
+    ) -> f64 {
+        let mut derived = self.derived.lock().unwrap_or_else(PoisonError::into_inner);
+        let outside = region.inflate(2.0 * slack);
+        let is_near = |known: &Bounds| known.encloses(&region) && outside.encloses(known);
+        if let Some((_, lipschitz)) = derived.known.iter().find(|(r, _)| is_near(r)) {
             return *lipschitz;
         }
-        let lipschitz = derive();
-        known.push((region, lipschitz));
+        let region = region.inflate(slack);
+        let (lipschitz, boxes) = derive(region);
+        derived.known.push((region, lipschitz));
+        derived.effort += boxes as u64 * self.work();
         lipschitz
+    }
+
+    /// How many operations were spent on deriving constants of this graph and its clones so far.
+    pub fn effort(&self) -> u64 {
+        let derived = self.derived.lock().unwrap_or_else(PoisonError::into_inner);
+        derived.effort
     }
 
     /// After what length along each axis the derivatives repeat themselves, where they do; 0 where they do not change.

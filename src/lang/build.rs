@@ -1,9 +1,7 @@
 //! From pest's pairs to the tree: literals are read, precedence is settled, chains are flattened.
 
 use super::ast::*;
-use super::color::color_of_hex;
-use super::hint::nearest;
-use super::limits::{MAX_NESTING, MAX_STRING};
+use super::limits::MAX_NESTING;
 use super::report::Diagnostic;
 use super::source::{Span, Word};
 use super::syntax::Rule;
@@ -41,29 +39,29 @@ pub(super) struct Builder {
 }
 
 /// The pairs inside a pair; the grammar says which come.
-struct Inner<'i>(std::iter::Peekable<Pairs<'i, Rule>>);
+pub(super) struct Inner<'i>(std::iter::Peekable<Pairs<'i, Rule>>);
 
 impl<'i> Inner<'i> {
-    fn of(pair: Pair<'i, Rule>) -> Self {
+    pub fn of(pair: Pair<'i, Rule>) -> Self {
         Self(pair.into_inner().peekable())
     }
 
-    fn take(&mut self) -> Pair<'i, Rule> {
+    pub fn take(&mut self) -> Pair<'i, Rule> {
         self.0.next().expect("the grammar demands this part")
     }
 
     /// The next pair of this rule, past others.
-    fn find(&mut self, rule: Rule) -> Pair<'i, Rule> {
+    pub fn find(&mut self, rule: Rule) -> Pair<'i, Rule> {
         self.0
             .find(|pair| pair.as_rule() == rule)
             .expect("the grammar demands this part")
     }
 
-    fn take_if(&mut self, rule: Rule) -> Option<Pair<'i, Rule>> {
+    pub fn take_if(&mut self, rule: Rule) -> Option<Pair<'i, Rule>> {
         self.0.next_if(|pair| pair.as_rule() == rule)
     }
 
-    fn all(self, rule: Rule) -> impl Iterator<Item = Pair<'i, Rule>> {
+    pub fn all(self, rule: Rule) -> impl Iterator<Item = Pair<'i, Rule>> {
         self.0.filter(move |pair| pair.as_rule() == rule)
     }
 }
@@ -78,7 +76,7 @@ impl Builder {
         }
     }
 
-    fn span(&self, pair: &Pair<'_, Rule>) -> Span {
+    pub fn span(&self, pair: &Pair<'_, Rule>) -> Span {
         let span = pair.as_span();
         // A rule that ends with an optional part also spans the blanks before it.
         let end = span.start() + span.as_str().trim_end().len();
@@ -461,96 +459,6 @@ impl Builder {
             filter,
             body,
         }))
-    }
-
-    fn quantity(&mut self, pair: Pair<'_, Rule>) -> Literal {
-        let span = self.span(&pair);
-        let mut inner = Inner::of(pair);
-        let number = inner.take();
-        let text = number.as_str();
-        let value: f64 = text.parse().expect("the grammar reads only numbers");
-        if !value.is_finite() {
-            let error = Diagnostic::error(span, "this number is too large")
-                .help("the largest is about 1.8e308");
-            self.diagnostics.push(error);
-            return Literal::Number(0.0);
-        }
-        let Some(unit) = inner.take_if(Rule::unit) else {
-            return Literal::Number(value);
-        };
-        match unit.as_str() {
-            "deg" => Literal::Angle(value.to_radians()),
-            "turn" => Literal::Angle(value * std::f64::consts::TAU),
-            "rad" => Literal::Angle(value),
-            other => {
-                let units = ["deg", "turn", "rad"];
-                let help = match nearest(other, units) {
-                    Some(unit) => format!("did you mean `{unit}`?"),
-                    None => "angles are written `45deg`, `0.25turn` or `1.2rad`; lengths have no \
-                             unit; a product needs `*`"
-                        .into(),
-                };
-                let message = format!("unknown unit `{}`", super::hint::clipped(other));
-                let error = Diagnostic::error(self.span(&unit), message).help(help);
-                self.diagnostics.push(error);
-                Literal::Number(value)
-            }
-        }
-    }
-
-    fn bad_number(&mut self, pair: &Pair<'_, Rule>) -> Literal {
-        let text = pair.as_str();
-        let (message, better) = if text.starts_with('.') {
-            ("a digit must stand before the point", format!("0{text}"))
-        } else {
-            ("a digit must follow the point", format!("{text}0"))
-        };
-        let error = Diagnostic::error(self.span(pair), message)
-            .help(format!("write `{}`", super::hint::clipped(&better)));
-        self.diagnostics.push(error);
-        Literal::Number(0.0)
-    }
-
-    fn color(&mut self, pair: &Pair<'_, Rule>) -> Literal {
-        if let Some(color) = color_of_hex(&pair.as_str()[1..]) {
-            return Literal::Color(color);
-        }
-        let error = Diagnostic::error(self.span(pair), "this is no colour")
-            .help("a colour has three or six hexadecimal digits: `#fc8` or `#ffcc88`");
-        self.diagnostics.push(error);
-        Literal::Color([0.0; 3])
-    }
-
-    /// The text of a string, with the span of the whole literal.
-    fn string_word(&mut self, pair: Pair<'_, Rule>) -> Word {
-        let span = self.span(&pair);
-        let raw = Inner::of(pair).find(Rule::characters);
-        if raw.as_str().len() > MAX_STRING {
-            let message =
-                format!("this string is longer than {MAX_STRING} bytes (limit MAX_STRING)");
-            self.diagnostics.push(Diagnostic::error(span, message));
-        }
-        let mut text = String::with_capacity(raw.as_str().len());
-        let mut characters = raw.as_str().chars();
-        while let Some(c) = characters.next() {
-            let escaped = if c == '\\' { characters.next() } else { None };
-            text.push(match escaped {
-                None => c,
-                Some('n') => '\n',
-                Some('t') => '\t',
-                Some(c @ ('"' | '\\')) => c,
-                Some(other) => {
-                    let error = Diagnostic::error(span, format!("unknown escape `\\{other}`"))
-                        .help("strings know `\\n`, `\\t`, `\\\"` and `\\\\`");
-                    self.diagnostics.push(error);
-                    other
-                }
-            });
-        }
-        Word {
-            text: text.into(),
-            span,
-        }
     }
 }
 

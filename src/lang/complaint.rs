@@ -70,20 +70,17 @@ pub(super) fn diagnose(error: &Error<Rule>, file: u32, text: &str, at: usize) ->
         "" => "the end of the script".into(),
         _ => format!("`{}`", clipped(found)),
     };
-    let mut diagnostic = if positives.contains(&Rule::statement) || is_at_statement(positives) {
+    let expected = categories(positives);
+    let mut diagnostic = if expected.is_empty() || positives.contains(&Rule::EOI) {
         statement_wanted(span, text, place, found, &found_words)
     } else {
-        let expected = joined(&categories(positives), "or");
+        let expected = joined(&expected, "or");
         Diagnostic::error(span, format!("expected {expected}, found {found_words}"))
     };
     if let Some(help) = remedy(found, positives) {
         diagnostic = diagnostic.help(help);
     }
     diagnostic
-}
-
-fn is_at_statement(positives: &[Rule]) -> bool {
-    positives.contains(&Rule::import) || positives.contains(&Rule::import_word)
 }
 
 /// The span of the last byte that says something.
@@ -123,7 +120,13 @@ fn categories(positives: &[Rule]) -> Vec<String> {
             named.push(words);
         }
     };
+    // Where an index could follow, so could a call.
+    let is_after_operand =
+        positives.contains(&Rule::open_bracket) || positives.contains(&Rule::index);
     for rule in positives {
+        if *rule == Rule::open_paren && is_after_operand {
+            continue;
+        }
         if let Some(words) = category(*rule) {
             add(words);
         }
@@ -161,7 +164,7 @@ fn category(rule: Rule) -> Option<&'static str> {
         | arguments | index | member | dot | range_mark | step_word => OPERATOR,
         open_paren | signature => "`(`",
         close_paren => "`)`",
-        open_bracket => "`[`",
+        open_bracket => OPERATOR,
         close_bracket => "`]`",
         open_brace | block | entries => "`{`",
         close_brace => "`}`",
@@ -175,7 +178,6 @@ fn category(rule: Rule) -> Option<&'static str> {
         local | let_word => "`let`",
         expect | expect_word => "`expect`",
         claim | lipschitz_word => "`lipschitz`",
-        EOI => "the end of the script",
         _ => return None,
     })
 }
@@ -220,6 +222,11 @@ fn statement_wanted(
 /// What to write instead of a token from another language.
 fn remedy(found: &str, positives: &[Rule]) -> Option<String> {
     let is_name_wanted = positives.contains(&Rule::name) && !positives.contains(&Rule::quantity);
+    if positives.contains(&Rule::else_word) {
+        return Some(
+            "an `if` gives a value, so it needs both: `if condition { a } else { b }`".into(),
+        );
+    }
     let text = match found {
         "||" => "write `or`, or a single `|` for a union",
         "&&" => "write `and`, or a single `&` for an intersection",
@@ -230,7 +237,7 @@ fn remedy(found: &str, positives: &[Rule]) -> Option<String> {
         "?" => "write `if condition { a } else { b }`",
         "->" | "=>" => "a function is `fn name(arguments) { expression }`",
         "+=" | "-=" | "++" => "a name is given its value once, with `let`",
-        "=" if !positives.contains(&Rule::equals) => {
+        "=" if !positives.contains(&Rule::equals) && !is_name_wanted => {
             "write `==` to compare, `:` to name an argument"
         }
         "else" => "write `if condition { a } else { b }`",

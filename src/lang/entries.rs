@@ -166,7 +166,10 @@ impl<'a> Machine<'a> {
         let Some(argument) = converted(&given.value, parameter, is_planar) else {
             return self.wrong_kind(entry, parameter, given);
         };
-        let problem = if !argument
+        let is_endless = |x: &f64| !x.is_finite() && !parameter.range.contains(*x);
+        let problem = if argument.components().iter().any(is_endless) {
+            Some("finite".into())
+        } else if !argument
             .components()
             .iter()
             .all(|x| parameter.range.contains(*x))
@@ -211,6 +214,9 @@ impl<'a> Machine<'a> {
             ),
             (Value::Text(_), Kind::Axis | Kind::Direction) => {
                 Some("the axes are \"x\", \"y\" and \"z\"".into())
+            }
+            (Value::Vector2([x, y]), Kind::Vector3 | Kind::Factors) => {
+                Some(format!("in space there are three components: `[{x}, {y}, 0]`"))
             }
             (Value::Angle(_), Kind::Number) => Some("lengths have no unit".into()),
             _ => default_help(parameter),

@@ -9,7 +9,7 @@ use super::report::Diagnostic;
 use super::source::{Span, Word};
 use super::value::{Form, Pattern, PatternKind, Quantity, Scalar, Value};
 use crate::catalogue::Function;
-use crate::scene::{FieldShape, Graph, GraphBuilder, Node};
+use crate::scene::{FieldShape, Graph, GraphBuilder, Node, Shape};
 use std::sync::Arc;
 
 impl<'a> Machine<'a> {
@@ -158,6 +158,9 @@ impl<'a> Machine<'a> {
         self.tick(work, at)?;
         match Node::field(field) {
             Ok(node) => {
+                if let Shape::Field(field) = node.shape() {
+                    self.derived.push(field.clone());
+                }
                 let place = self.place(routine.name.span);
                 self.count_shape(&node, at)?;
                 Ok(node.labelled(Some(routine.name.text.clone()), Some(place)))

@@ -1,129 +1,24 @@
-//! Calls of values, and the functions that only the language knows.
+//! The functions that only the language knows.
 
 use super::arguments::{Given, bind};
 use super::ast::RoutineKind;
-use super::builtin::{Builtin, Intrinsic};
+use super::builtin::Intrinsic;
 use super::limits::MAX_STRING;
 use super::machine::{Eval, Machine, item_of};
 use super::numeric::Arithmetic;
 use super::report::Diagnostic;
 use super::source::Span;
 use super::value::{Form, PatternKind, Quantity, Scalar, Value};
-use crate::catalogue::{AXES, Function};
-use crate::num::Vec3;
-use std::sync::Arc;
+use crate::catalogue::AXES;
 
 impl<'a> Machine<'a> {
-    /// Calls any value that can be called.
-    pub fn call(&mut self, callee: Value, at: Span, given: Vec<Given<'a>>) -> Eval<Value> {
-        match callee {
-            Value::Routine(RoutineKind::Function, id) => self.call_routine(id, at, given),
-            Value::Routine(RoutineKind::Field, id) => self.call_field(id, at, given),
-            Value::Routine(RoutineKind::Pattern, id) => self.call_pattern(id, at, given),
-            Value::Builtin(Builtin::Primitive(entry)) => self.primitive(entry, at, given),
-            Value::Builtin(Builtin::Modifier(entry)) => self.modifier(entry, at, given),
-            Value::Builtin(Builtin::Blend(entry)) => self.blend(entry, at, given),
-            Value::Builtin(Builtin::Operation(operation)) => self.operation(operation, at, given),
-            Value::Builtin(Builtin::Function(function)) => self.function(function, at, given),
-            Value::Builtin(Builtin::Intrinsic(intrinsic)) => self.intrinsic(intrinsic, at, given),
-            Value::Pattern(pattern) => match &given[..] {
-                [point] if point.label.is_none() => self.pattern_at(&pattern, &point.value, at),
-                _ => {
-                    let message = "a pattern is taken at one point [x, y, z]";
-                    self.fail(Diagnostic::error(at, message))
-                }
-            },
-            other => {
-                let message = format!("{} cannot be called", other.noun());
-                self.fail(Diagnostic::error(at, message).label(other.shown()))
-            }
-        }
-    }
-
-    /// A function of the catalogue, by components.
-    fn function(&mut self, function: Function, at: Span, given: Vec<Given<'a>>) -> Eval<Value> {
-        if let Some(fold) = self.folded(function, &given, at)? {
-            return Ok(fold);
-        }
-        let slots: Vec<_> = function
-            .arguments()
-            .iter()
-            .map(|name| (*name, true))
-            .collect();
-        let bound = match bind(function.name(), &slots, at, given) {
-            Ok(bound) => bound,
-            Err(diagnostic) => return self.fail(*diagnostic),
-        };
-        let mut quantities = Vec::with_capacity(3);
-        for given in bound.iter().flatten() {
-            match given.value.quantity() {
-                Some(quantity) => quantities.push(quantity),
-                None => {
-                    let message = format!(
-                        "`{}` works on numbers, but this is {}",
-                        function.name(),
-                        given.value.noun()
-                    );
-                    let error = Diagnostic::error(given.span, message).label(given.value.shown());
-                    return self.fail(error);
-                }
-            }
-        }
-        let Some((form, count)) = function_form(function, &quantities) else {
-            let nouns: Vec<String> = bound
-                .iter()
-                .flatten()
-                .map(|given| given.value.noun().into())
-                .collect();
-            let nouns = super::hint::joined(&nouns, "and");
-            let message = format!("`{}` does not work on {nouns}", function.name());
-            return self.fail(Diagnostic::error(at, message));
-        };
-        let mut result = [Scalar::Known(0.0); 3];
-        for (i, scalar) in result[..count].iter_mut().enumerate() {
-            let mut arguments = [Scalar::Known(0.0); 3];
-            for (argument, quantity) in arguments.iter_mut().zip(&quantities) {
-                *argument = quantity.component(i);
-            }
-            *scalar = self.apply(function, &arguments[..quantities.len()]);
-        }
-        self.check_graph(at)?;
-        Ok(Quantity::new(form, &result[..count]).value())
-    }
-
-    /// The smallest or largest of a list, or of more than two arguments; none for other calls.
-    fn folded(&mut self, function: Function, given: &[Given<'a>], at: Span) -> Eval<Option<Value>> {
-        if !matches!(function, Function::Min | Function::Max) {
-            return Ok(None);
-        }
-        let items: Vec<Value> = match given {
-            [only] if only.label.is_none() => {
-                let count = self.count_of(&only.value, only.span)?;
-                (0..count).map(|i| item_of(&only.value, i)).collect()
-            }
-            [_, _, _, ..] if given.iter().all(|g| g.label.is_none()) => {
-                given.iter().map(|g| g.value.clone()).collect()
-            }
-            _ => return Ok(None),
-        };
-        self.tick(items.len() as u64, at)?;
-        let mut items = items.into_iter();
-        let Some(mut best) = items.next() else {
-            let message = format!("an empty list has no `{}`", function.name());
-            return self.fail(Diagnostic::error(at, message));
-        };
-        for item in items {
-            let pair = [best, item].map(|value| Given {
-                label: None,
-                value,
-                span: at,
-            });
-            best = self.function(function, at, pair.to_vec())?;
-        }
-        Ok(Some(best))
-    }
-
-    fn intrinsic(&mut self, intrinsic: Intrinsic, at: Span, given: Vec<Given<'a>>) -> Eval<Value> {
+    /// A function of the language itself.
+    pub fn intrinsic(
+        &mut self,
+        intrinsic: Intrinsic,
+        at: Span,
+        given: Vec<Given<'a>>,
+    ) -> Eval<Value> {
         match intrinsic {
             Intrinsic::Concat => return self.concat(at, &given),
             Intrinsic::Str => return self.str(at, &given),
@@ -230,7 +125,8 @@ impl<'a> Machine<'a> {
         }
     }
 
-    fn number(&mut self, scalar: Scalar, at: Span) -> Eval<Value> {
+    /// The number as a value, if the graph is not too large.
+    pub fn number(&mut self, scalar: Scalar, at: Span) -> Eval<Value> {
         self.check_graph(at)?;
         Ok(Quantity::new(Form::Number, &[scalar]).value())
     }
@@ -264,14 +160,6 @@ impl<'a> Machine<'a> {
         match given.value.quantity() {
             Some(quantity) if quantity.form == Form::Number => Ok(quantity.scalars[0]),
             _ => self.unfit(given, callee, "a number"),
-        }
-    }
-
-    /// The components of a known point.
-    pub fn known_point(&mut self, given: &Given, callee: &str) -> Eval<[f64; 3]> {
-        match given.value {
-            Value::Vector3(p) => Ok(p),
-            _ => self.unfit(given, callee, "a vector [x, y, z]"),
         }
     }
 
@@ -454,54 +342,6 @@ impl<'a> Machine<'a> {
         let unit = (state >> 11) as f64 / (1u64 << 53) as f64;
         Ok(Value::Number(unit))
     }
-
-    /// The field of a shape at a point, which may be that of a field that is being made.
-    fn at(&mut self, shape: &Given, point: &Given) -> Eval<Value> {
-        let node = self.shape(&shape.value, shape.span)?;
-        let quantity = point.value.quantity();
-        let is_planar = node.traits().is_planar;
-        let scalars = match quantity {
-            Some(q) if q.form == Form::Vector && (q.count == 3 || is_planar) => q.scalars,
-            _ => return self.unfit(point, "at", "a point [x, y, z]"),
-        };
-        self.tick(node.size(), point.span)?;
-        if let [Scalar::Known(x), Scalar::Known(y), Scalar::Known(z)] = scalars {
-            return Ok(Value::Number(node.evaluate(&Vec3::new(x, y, z))));
-        }
-        let ids = scalars.map(|scalar| self.id(scalar));
-        let id = self.builder().shape(&node, ids);
-        self.number(Scalar::Symbolic(id), point.span)
-    }
-
-    /// `trace(origin, direction)` through everything shown, or `shape.trace(origin, direction)`.
-    fn trace(&mut self, at: Span, given: &[Given<'a>]) -> Eval<Value> {
-        let (shown, rest) = match given {
-            [shape, origin, direction] => (
-                vec![self.shape(&shape.value, shape.span)?],
-                [origin, direction],
-            ),
-            [origin, direction] => (self.shown.clone(), [origin, direction]),
-            _ => {
-                let message = "`trace` takes an origin and a direction";
-                let help = "as in `trace([0, 0, 5], [0, 0, -1])`";
-                return self.fail(Diagnostic::error(at, message).help(help));
-            }
-        };
-        let origin = self.known_point(rest[0], "trace")?;
-        let direction = self.known_point(rest[1], "trace")?;
-        let length = direction.iter().fold(0.0, |n: f64, c| n.hypot(*c));
-        if length == 0.0 || !length.is_finite() || origin.iter().any(|c| !c.is_finite()) {
-            let message = "a ray needs a finite origin and a direction that is not zero";
-            return self.fail(Diagnostic::error(rest[1].span, message));
-        }
-        let size: u64 = shown.iter().map(|node| node.size()).sum();
-        self.tick(1000 + size, at)?;
-        let found = self.tracer.trace(&shown, &self.settings, origin, direction);
-        match found {
-            Ok(record) => Ok(Value::Trace(Arc::new(record))),
-            Err(problem) => self.fail(Diagnostic::error(at, problem)),
-        }
-    }
 }
 
 /// SplitMix64's output function: every bit of the input reaches every bit of the output. Source: Steele et al. 2014.
@@ -510,34 +350,4 @@ fn mixed_bits(x: u64) -> u64 {
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     x ^ (x >> 31)
-}
-
-/// The form of a function's value; none where it has no meaning for these arguments.
-fn function_form(function: Function, quantities: &[Quantity]) -> Option<(Form, usize)> {
-    let is_angle = |q: &Quantity| q.form == Form::Angle;
-    if !quantities.iter().any(is_angle) {
-        return quantities.iter().skip(1).try_fold(
-            (quantities[0].form, quantities[0].count),
-            |(form, count), q| match (form, q.form) {
-                (_, Form::Number) => Some((form, count)),
-                (Form::Number, _) => Some((q.form, q.count)),
-                (a, b) if a == b && count == q.count => Some((form, count)),
-                _ => None,
-            },
-        );
-    }
-    match function {
-        Function::Sin | Function::Cos | Function::Tan => Some((Form::Number, 1)),
-        Function::Abs | Function::Min | Function::Max | Function::Clamp | Function::Modulo
-            if quantities.iter().all(is_angle) =>
-        {
-            Some((Form::Angle, 1))
-        }
-        Function::Mix
-            if quantities[..2].iter().all(is_angle) && quantities[2].form == Form::Number =>
-        {
-            Some((Form::Angle, 1))
-        }
-        _ => None,
-    }
 }

@@ -2,7 +2,7 @@
 //! it; `docs/language.md` lists them all.
 
 /// How many bytes a script and everything that it imports may have together.
-pub const MAX_SCRIPT_BYTES: usize = 8 << 20;
+pub const MAX_SCRIPT_BYTES: usize = 4 << 20;
 
 /// How many bytes one statement may have.
 pub const MAX_STATEMENT_BYTES: usize = 1 << 20;
@@ -19,8 +19,9 @@ pub const MAX_SHOWN: usize = 20;
 /// How many files may import each other in a row.
 pub const MAX_IMPORT_DEPTH: usize = 64;
 
-/// How many steps the evaluation of a script may take, or of one test: expressions, list elements, nodes of shapes.
-pub const MAX_STEPS: u64 = 10_000_000;
+/// How many steps the evaluation of a script may take, or of one test: expressions, list elements, nodes of shapes,
+/// and the operations that deriving the constants of fields takes.
+pub const MAX_STEPS: u64 = 5_000_000;
 
 /// How many calls of the script's functions, fields and patterns may be open at once.
 pub const MAX_CALL_DEPTH: usize = 1000;

@@ -169,6 +169,7 @@ fn loaded(
         scene,
         names,
         parameters,
+        has_shows,
         ..
     } = machine.run();
     let globals = std::mem::take(&mut machine.globals);
@@ -176,6 +177,9 @@ fn loaded(
     drop(machine);
     let is_error = |d: &Diagnostic| d.level == Level::Error;
     let has_errors = diagnostics.iter().any(is_error);
+    if !has_errors && !has_shows {
+        diagnostics.push(shows_nothing());
+    }
     let report = Report::new(diagnostics, program.sources.clone());
     if has_errors {
         return Err(report);
@@ -188,4 +192,15 @@ fn loaded(
         program,
         globals,
     })
+}
+
+fn shows_nothing() -> Diagnostic {
+    Diagnostic {
+        level: Level::Warning,
+        message: "the script shows nothing".into(),
+        span: None,
+        label: String::new(),
+        help: Some("end it with `show` and a shape, as in `show sphere(1)`".into()),
+        notes: Vec::new(),
+    }
 }

@@ -8,7 +8,7 @@ use super::program::Program;
 use super::report::Diagnostic;
 use super::source::{Span, Word};
 use super::value::{Range, Value};
-use crate::scene::{GraphBuilder, Node, Place, Settings, Tracer};
+use crate::scene::{FieldShape, GraphBuilder, Node, Place, Settings, Tracer};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -37,6 +37,9 @@ pub(super) struct Machine<'a> {
     pub diagnostics: Vec<Diagnostic>,
     /// The shapes of fields with default arguments.
     pub fields: HashMap<GlobalId, Option<Arc<Node>>>,
+    /// Every field that was made, whose constants take time to derive.
+    pub derived: Vec<Arc<FieldShape>>,
+    effort: u64,
     /// Everything that is shown, for `trace`.
     pub shown: Vec<Arc<Node>>,
     pub settings: Settings,
@@ -63,6 +66,8 @@ impl<'a> Machine<'a> {
                 .collect(),
             diagnostics: Vec::new(),
             fields: HashMap::new(),
+            derived: Vec::new(),
+            effort: 0,
             shown: Vec::new(),
             settings: Settings::default(),
             builders: Vec::new(),
@@ -78,10 +83,21 @@ impl<'a> Machine<'a> {
     /// Reports an error with the calls that led to it.
     pub fn fail<T>(&mut self, mut diagnostic: Diagnostic) -> Eval<T> {
         const INNERMOST: usize = 3;
-        for (span, words) in self.calls.iter().rev().take(INNERMOST) {
-            diagnostic.notes.push((*span, (*words).into()));
+        let calls: Vec<_> = self
+            .calls
+            .iter()
+            .rev()
+            .filter(|(_, words)| !words.is_empty())
+            .collect();
+        let mut noted: Vec<Span> = Vec::new();
+        for (span, words) in calls.iter().take(INNERMOST) {
+            // A call that calls itself is one place.
+            if !noted.contains(span) {
+                noted.push(*span);
+                diagnostic.notes.push((*span, (*words).into()));
+            }
         }
-        if let [(span, words), between @ ..] = &self.calls[..]
+        if let [between @ .., (span, words)] = &calls[..]
             && between.len() >= INNERMOST
         {
             let left_out = between.len() - INNERMOST;
@@ -116,7 +132,7 @@ impl<'a> Machine<'a> {
         self.fail(
             Diagnostic::error(at, message)
                 .label("evaluation stopped here")
-                .help("make fewer or simpler elements"),
+                .help("make fewer or simpler elements; a field with a claimed `lipschitz` counts for less"),
         )
     }
 
@@ -149,8 +165,20 @@ impl<'a> Machine<'a> {
             }
             return Err(Stop);
         }
-        // Bounds and constants are found by a walk over the tree.
-        self.tick(4 + node.size() / 8, at)
+        // Bounds are found by a walk over the tree.
+        self.tick(4 + node.size() / 8, at)?;
+        self.count_effort(at)
+    }
+
+    /// Counts what it took to derive constants of fields since the last time.
+    fn count_effort(&mut self, at: Span) -> Eval<()> {
+        if self.derived.is_empty() {
+            return Ok(());
+        }
+        let effort = self.derived.iter().map(|field| field.graph.effort()).sum();
+        let before = std::mem::replace(&mut self.effort, effort);
+        // An operation on intervals with derivatives takes about 160 ns, a step as long as two.
+        self.tick((effort - before) / 2 + self.derived.len() as u64 / 16, at)
     }
 
     /// The file and line of `span`.
@@ -244,7 +272,8 @@ impl<'a> Machine<'a> {
         }
     }
 
-    fn named(&mut self, word: &'a Word, binding: Binding) -> Eval<Value> {
+    /// What a name stands for, evaluated.
+    pub fn named(&mut self, word: &'a Word, binding: Binding) -> Eval<Value> {
         match binding {
             Binding::Unknown => Err(Stop),
             Binding::Local(slot) => Ok(self.locals[self.base + slot as usize].clone()),
@@ -424,84 +453,6 @@ impl<'a> Machine<'a> {
         }
     }
 
-    fn postfix(&mut self, postfix: &'a Postfix) -> Eval<Value> {
-        let mut value = self.eval(&postfix.base)?;
-        let mut span = postfix.base.span;
-        for step in &postfix.steps {
-            self.tick(1, span)?;
-            value = match step {
-                Step::Member(word) => self.member(value, word)?,
-                Step::Index(index) => self.index(&value, index)?,
-                Step::Call(arguments) => {
-                    let given = self.given(None, arguments)?;
-                    let result = self.call(value, span, given)?;
-                    span = span.to(arguments.span);
-                    result
-                }
-                Step::Method(word, binding, arguments) => {
-                    let callee = self.named(word, *binding)?;
-                    let receiver = Given {
-                        label: None,
-                        value,
-                        span,
-                    };
-                    let given = self.given(Some(receiver), arguments)?;
-                    let result = self.call(callee, word.span, given)?;
-                    span = span.to(arguments.span);
-                    result
-                }
-            };
-            if let Step::Member(word) = step {
-                span = span.to(word.span);
-            }
-        }
-        Ok(value)
-    }
-
-    /// The values of arguments.
-    fn given(
-        &mut self,
-        receiver: Option<Given<'a>>,
-        arguments: &'a Arguments,
-    ) -> Eval<Vec<Given<'a>>> {
-        let mut given = Vec::with_capacity(arguments.items.len() + 1);
-        given.extend(receiver);
-        for argument in &arguments.items {
-            let is_blend = argument.label.as_ref().is_some_and(|l| &*l.text == "blend");
-            let value = match is_blend {
-                true => self.blend_value(&argument.value)?,
-                false => self.eval(&argument.value)?,
-            };
-            given.push(Given {
-                label: argument.label.as_ref(),
-                value,
-                span: argument.value.span,
-            });
-        }
-        Ok(given)
-    }
-
-    /// The value of a `blend:` argument: there a blend's name comes before a function of the same name.
-    fn blend_value(&mut self, expression: &'a Expression) -> Eval<Value> {
-        if let Kind::Postfix(postfix) = &expression.kind
-            && let Kind::Name(word, Binding::Builtin(_)) = &postfix.base.kind
-            && let [Step::Call(arguments)] = &postfix.steps[..]
-            && let Some(entry) = super::builtin::Builtin::blend(&word.text)
-        {
-            let given = self.given(None, arguments)?;
-            let blend = Value::Builtin(super::builtin::Builtin::Blend(entry));
-            return self.call(blend, word.span, given);
-        }
-        self.eval(expression)
-    }
-
-    /// Calls a function of the script, a field at a point, or a pattern at a point.
-    pub fn call_routine(&mut self, id: GlobalId, at: Span, given: Vec<Given<'a>>) -> Eval<Value> {
-        self.with_frame(id, at, given, |machine, routine| {
-            machine.block(&routine.body)
-        })
-    }
-
     /// Runs `inside` where the arguments have their names.
     pub fn with_frame<T>(
         &mut self,
@@ -527,7 +478,13 @@ impl<'a> Machine<'a> {
             let help = format!("does the recursion of `{name}` end?");
             return self.fail(Diagnostic::error(at, message).help(help));
         }
-        self.calls.push((at, "called here"));
+        // A field that is made where it is defined was called by nobody.
+        let words = if at == routine.name.span {
+            ""
+        } else {
+            "called here"
+        };
+        self.calls.push((at, words));
         let base = std::mem::replace(&mut self.base, self.locals.len());
         let result = self.fill_frame(routine, bound);
         let result = result.and_then(|()| inside(self, routine));

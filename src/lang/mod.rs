@@ -5,18 +5,22 @@
 //! What is wrong with a script comes back as a [`Report`], every error with its place and a hint. Scripts are not
 //! trusted: whatever they do ends within the limits of [`limits`].
 
+mod answers;
 mod arguments;
 mod ast;
 mod build;
 mod builtin;
+mod calls;
 mod claims;
 mod color;
 mod complaint;
 mod entries;
 mod fields;
+mod functions;
 mod hint;
 mod intrinsics;
 pub mod limits;
+mod literals;
 mod load;
 mod machine;
 mod materials;

@@ -178,18 +178,22 @@ impl Report {
         let source = self.sources.get(file);
         let text: &str = &source.text;
         let line_start = |at: usize| text[..at].rfind('\n').map_or(0, |i| i + 1);
-        let line_end = |at: usize| text[at..].find('\n').map_or(text.len(), |i| at + i);
+        let line_end = |at: usize| {
+            let end = text[at..].find('\n').map_or(text.len(), |i| at + i);
+            at + text[at..end].trim_end_matches('\r').len()
+        };
         let starts = || spans.iter().map(|(span, ..)| span.start as usize);
         let from = line_start(starts().min().unwrap_or(0));
         let to = line_end(starts().max().unwrap_or(0));
         let number = text[..from].bytes().filter(|b| *b == b'\n').count() + 1;
-        let mut snippet = Snippet::source(&text[from..to])
+        // A line end of two bytes would be drawn; in place of the first a blank does no harm.
+        let lines = text[from..to].replace("\r\n", " \n");
+        let mut snippet = Snippet::source(lines)
             .line_start(number)
             .path(&*source.name);
         for (span, label, kind) in spans {
             let (start, end) = (span.start as usize, span.end as usize);
-            let line = text[start..line_end(start)].trim_end_matches('\r');
-            let end = end.min(start + line.len()).max(start);
+            let end = end.min(line_end(start)).max(start);
             let annotation = kind.span(start - from..end - from);
             snippet = snippet.annotation(if label.is_empty() {
                 annotation

@@ -18,7 +18,8 @@ pub(super) struct Made {
     pub parameters: Vec<(String, String)>,
     /// Where each setting stands that can be given once.
     once: HashMap<&'static str, Span>,
-    has_shows: bool,
+    /// Whether the script has a `show`.
+    pub has_shows: bool,
 }
 
 impl<'a> Machine<'a> {
@@ -32,19 +33,6 @@ impl<'a> Machine<'a> {
         self.settings = made.scene.settings;
         self.check_claims();
         self.name_shapes(&mut made);
-        if !made.has_shows && self.diagnostics.is_empty() {
-            let mut warning = Diagnostic::warning(
-                Span {
-                    file: 0,
-                    start: 0,
-                    end: 0,
-                },
-                "the script shows nothing",
-            )
-            .help("end it with `show` and a shape, as in `show sphere(1)`");
-            warning.span = None;
-            self.diagnostics.push(warning);
-        }
         made
     }
 

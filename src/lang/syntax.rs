@@ -55,7 +55,11 @@ pub(super) fn parse(file: u32, text: &str) -> Parsed {
                 };
                 let mut builder = Builder::new(file, at as u32);
                 let built = builder.statement(statement);
-                parsed.statements.push(built);
+                // Where a literal is wrong, what follows from it would only repeat that.
+                let is_good = builder.diagnostics.is_empty();
+                let place = at + length;
+                let bad = || broken(file, text, at, place);
+                parsed.statements.push(if is_good { built } else { bad() });
                 parsed.diagnostics.append(&mut builder.diagnostics);
                 at += length;
                 continue;
@@ -68,16 +72,34 @@ pub(super) fn parse(file: u32, text: &str) -> Parsed {
         }
         let place = at + complaint::place(&error);
         // What the scan has found already is not said twice.
-        let is_known = scan.unpaired.is_some_and(|unpaired| unpaired < place);
+        let is_known = scan.unpaired.is_some_and(|unpaired| unpaired <= place);
         if !is_known {
             parsed
                 .diagnostics
                 .push(complaint::diagnose(&error, file, text, at));
         }
+        if continues(&parsed.statements, text, at) {
+            spoil(&mut parsed.statements, file, text);
+        }
         parsed.statements.push(broken(file, text, at, place));
         at = resume(text, at, place);
     }
     parsed
+}
+
+/// Whether what could not be read stands on the line on which the statement before it ended: then it was meant to belong
+/// to it.
+fn continues(statements: &[Statement], text: &str, at: usize) -> bool {
+    let start = at + complaint::blank_length(&text[at..]);
+    !statements.is_empty() && !text[at..start].contains('\n')
+}
+
+/// Takes the last statement back, but for the name that it defines.
+fn spoil(statements: &mut Vec<Statement>, file: u32, text: &str) {
+    if let Some(last) = statements.pop() {
+        let (start, end) = (last.span.start as usize, last.span.end as usize);
+        statements.push(broken(file, text, start, end));
+    }
 }
 
 /// Reads an expression that stands alone, as on the command line.
@@ -155,10 +177,12 @@ fn broken(file: u32, text: &str, at: usize, place: usize) -> Statement {
     let start = at + complaint::blank_length(&text[at..]);
     let mut words = text[start..].split_whitespace();
     let defines = ["param", "let", "fn", "field", "pattern", "material"];
-    let name = words
-        .next()
+    let (first, second) = (words.next(), words.next());
+    let name = first
         .filter(|word| defines.contains(word))
-        .and_then(|_| words.next())
+        .and(second)
+        // In an assignment the name comes first.
+        .or(first.filter(|_| second == Some("=")))
         .map(|word| {
             let end = word
                 .find(|c: char| !c.is_alphanumeric() && c != '_')

@@ -66,7 +66,13 @@ impl<'a> Machine<'a> {
         let mark = compare.comparison.mark();
         let message = format!("{left} {mark} {right} is not so");
         let label = format!("left: {left}, right: {right}");
-        self.fail(Diagnostic::error(expectation.span, message).label(label))
+        let error = Diagnostic::error(expectation.span, message).label(label);
+        self.fail(match (&left, &right) {
+            (Value::Number(a), Value::Number(b)) if left.to_string() == right.to_string() => {
+                error.help(format!("they differ by {:e}", a - b))
+            }
+            _ => error,
+        })
     }
 }
 

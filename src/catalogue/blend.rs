@@ -2,11 +2,11 @@
 //!
 //! A blend is given as the union of two fields; intersection and difference follow from it by signs.
 
-use super::{Argument, Declaration, Declared, Range, declaration::entry};
+use super::{AnyBlend, Range, declaration::entry, with_blend};
 use crate::num::Number;
 
 /// The mathematics of a blend.
-pub trait Blend: Declared {
+pub trait Blend: super::Declared {
     /// The union of two fields: at most the smaller of them, monotone in both, with partial derivatives that are not
     /// negative and sum to 1, so that its Lipschitz constant is the larger of theirs.
     fn union<N: Number>(&self, a: N, b: N) -> N;
@@ -62,42 +62,6 @@ impl Blend for Smooth {
     }
 }
 
-macro_rules! blends {
-    ($dollar:tt $($type:ident),+) => {
-        /// Any blend of the catalogue.
-        #[derive(Clone, Debug, PartialEq)]
-        pub enum AnyBlend {
-            $(
-                #[doc = concat!("See [`", stringify!($type), "`].")]
-                $type($type),
-            )+
-        }
-
-        macro_rules! with_blend {
-            ($dollar any:expr, $dollar bound:ident => $dollar body:expr) => {
-                match $dollar any { $( $dollar crate::catalogue::AnyBlend::$type($dollar bound) => $dollar body, )+ }
-            };
-        }
-        pub(crate) use with_blend;
-
-        impl AnyBlend {
-            /// The declarations of all blends.
-            pub const DECLARATIONS: &'static [&'static Declaration] = &[$(&<$type as Declared>::DECLARATION),+];
-
-            /// The blend that scripts call `name`, made from checked arguments; none where there is no such name.
-            pub fn from_arguments(name: &str, arguments: &[Argument]) -> Option<Self> {
-                $(
-                    if name == <$type as Declared>::DECLARATION.name {
-                        return Some(Self::$type(<$type as Declared>::from_arguments(arguments)).simplified());
-                    }
-                )+
-                None
-            }
-        }
-    };
-}
-blends!($ Hard, Smooth);
-
 impl AnyBlend {
     /// The plain minimum.
     pub const HARD: Self = Self::Hard(Hard {});
@@ -123,9 +87,6 @@ impl AnyBlend {
 
     /// The name in scripts.
     pub fn name(&self) -> &'static str {
-        match self {
-            Self::Hard(_) => Hard::DECLARATION.name,
-            Self::Smooth(_) => Smooth::DECLARATION.name,
-        }
+        self.declaration().name
     }
 }

@@ -345,3 +345,50 @@ macro_rules! entry {
     };
 }
 pub(crate) use entry;
+
+/// Lists the entries of one kind: the enum over all of them, a macro that reaches inside, and what follows from their
+/// declarations. The first token is a dollar sign, which the macro inside needs.
+macro_rules! list {
+    ($dollar:tt $(#[doc = $doc:literal])+ $any:ident, $with:ident: $($type:ident),+ $(,)?) => {
+        $(#[doc = $doc])+
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum $any {
+            $(
+                #[doc = concat!("See [`", stringify!($type), "`].")]
+                $type($type),
+            )+
+        }
+
+        /// Evaluates an expression in which the entry inside is bound to a name.
+        macro_rules! $with {
+            ($dollar any:expr, $dollar bound:ident => $dollar body:expr) => {
+                match $dollar any { $( $dollar crate::catalogue::$any::$type($dollar bound) => $dollar body, )+ }
+            };
+        }
+        pub(crate) use $with;
+
+        impl $any {
+            /// The declarations of all entries of this kind.
+            pub const DECLARATIONS: &'static [&'static $crate::catalogue::Declaration] =
+                &[$(&<$type as $crate::catalogue::Declared>::DECLARATION),+];
+
+            /// The entry that scripts call `name`, made from checked arguments; none where there is no such name.
+            pub fn from_arguments(name: &str, arguments: &[$crate::catalogue::Argument]) -> Option<Self> {
+                $(
+                    if name == <$type as $crate::catalogue::Declared>::DECLARATION.name {
+                        return Some(Self::$type(<$type as $crate::catalogue::Declared>::from_arguments(arguments)));
+                    }
+                )+
+                None
+            }
+
+            /// What is said about the entry.
+            pub fn declaration(&self) -> &'static $crate::catalogue::Declaration {
+                match self {
+                    $(Self::$type(_) => &<$type as $crate::catalogue::Declared>::DECLARATION,)+
+                }
+            }
+        }
+    };
+}
+pub(crate) use list;

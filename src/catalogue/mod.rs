@@ -16,8 +16,7 @@ mod primitive;
 mod profiles;
 mod solids;
 
-pub(crate) use blend::with_blend;
-pub use blend::{AnyBlend, Blend, Hard, Smooth};
+pub use blend::{Blend, Hard, Smooth};
 pub use bounds::Bounds;
 pub use combination::{Combination, Operation};
 pub use declaration::{
@@ -33,5 +32,18 @@ pub use primitive::Primitive;
 pub use profiles::{Circle, Polygon, Rectangle};
 pub use solids::{Capsule, Cone, Cuboid, Cylinder, Ellipsoid, Plane, Sphere, Torus, Triangle};
 
-primitive::primitives!($ Sphere, Ellipsoid, Cuboid, Plane, Triangle, Cylinder, Cone, Capsule, Torus, Circle, Rectangle, Polygon);
-modifier::modifiers!($ Translate, Rotate, Scale, Mirror, Repeat, Twist, Offset, Shell, Extrude, Revolve);
+declaration::list!($
+    /// Any primitive of the catalogue.
+    AnyPrimitive, with_primitive: Sphere, Ellipsoid, Cuboid, Plane, Triangle, Cylinder, Cone, Capsule, Torus,
+    Circle, Rectangle, Polygon
+);
+
+declaration::list!($
+    /// Any modifier of the catalogue.
+    AnyModifier, with_modifier: Translate, Rotate, Scale, Mirror, Repeat, Twist, Offset, Shell, Extrude, Revolve
+);
+
+declaration::list!($
+    /// Any blend of the catalogue.
+    AnyBlend, with_blend: Hard, Smooth
+);

@@ -102,9 +102,10 @@ impl Node {
     /// # Errors
     /// If there is no child, or if profiles and shapes in space are mixed, or the tree gets too deep.
     pub fn combination(
-        combination: Combination,
+        mut combination: Combination,
         children: Vec<Arc<Self>>,
     ) -> Result<Arc<Self>, Fault> {
+        combination.blend = combination.blend.simplified();
         if children.is_empty() {
             let message = format!(
                 "`{}` needs at least one shape",
@@ -291,29 +292,21 @@ impl Node {
 
     /// The word for what the node is.
     pub fn kind(&self) -> &str {
-        use crate::catalogue::Declared;
-        fn word<D: Declared>(_: &D) -> &'static str {
-            D::DECLARATION.name
-        }
         match &self.shape {
-            Shape::Primitive(primitive) => with_primitive!(primitive, p => word(p)),
+            Shape::Primitive(primitive) => primitive.declaration().name,
             Shape::Field(field) => &field.name,
             Shape::Combination(combination, _) => combination.operation.name(),
-            Shape::Modifier(modifier, _) => with_modifier!(modifier, m => word(m)),
+            Shape::Modifier(modifier, _) => modifier.declaration().name,
         }
     }
 
     /// The rule behind its Lipschitz constant, in words with its source.
     pub fn rule(&self) -> &'static str {
-        use crate::catalogue::Declared;
-        fn source<D: Declared>(_: &D) -> &'static str {
-            D::DECLARATION.source
-        }
         fn of_modifier<M: Modifier>(_: &M) -> &'static str {
             M::RULE
         }
         match &self.shape {
-            Shape::Primitive(primitive) => with_primitive!(primitive, p => source(p)),
+            Shape::Primitive(primitive) => primitive.declaration().source,
             Shape::Field(field) if field.claimed.is_some() => {
                 "claimed in the script, checked by samples"
             }

@@ -341,6 +341,36 @@ fn many_shapes_of_one_field() {
 }
 
 #[test]
+fn fields_of_large_shapes() {
+    let script = "let many = union(for i in 0..20000 { sphere(1).translate([i, 0, 0]) })\n\
+         field f(p) lipschitz 0.1 { many.at(p) + many.at(p * 1.1) + many.at(p * 1.2) }\n\
+         field g(p) { many.at(p) * p.x }\nshow f & box(100)\nshow g & box(100)";
+    refuses(script, &["refuted"]);
+}
+
+#[test]
+fn many_names_load_in_time() {
+    let lets: String = (0..60_000)
+        .map(|i| format!("let _a{i} = sphere({i} + 1)\n"))
+        .collect();
+    let start = Clock::start();
+    let result = lang::load_text("names.sdf", &lets, &[], &Marcher);
+    let took = start.elapsed();
+    assert!(result.is_ok());
+    assert!(took < PATIENCE, "{took:?}");
+    drop(start);
+    let shapes: String = (0..100)
+        .map(|i| format!("let _a{i} = for i in 0..1000 {{ sphere(1) }}\n"))
+        .collect();
+    let filler = format!("// {}\n", "x".repeat(2 << 20)).replace("xxxxxxxx", "xxxxxxx\n//");
+    let start = Clock::start();
+    let result = lang::load_text("names.sdf", &format!("{filler}{shapes}"), &[], &Marcher);
+    let took = start.elapsed();
+    assert!(result.is_ok());
+    assert!(took < PATIENCE, "{took:?}");
+}
+
+#[test]
 fn numbers_without_end() {
     refuses("show sphere(1e999)", &["too large"]);
     refuses(

@@ -100,6 +100,8 @@ fn ranges_count_as_documented() {
             "len(0..0) == 0",
             "for i in 3..0 step -1 { i } == [3, 2, 1]",
             "len(0..2.5) == 3",
+            "len(0deg..360deg step 45deg) == 8",
+            "(0deg..=90deg step 30deg)[2] == 60deg",
         ],
     );
 }

@@ -1,19 +1,19 @@
 //! Lipschitz constants that a script claims, put to the test where the field is used.
 
-use super::ast::{GlobalId, StatementKind};
+use super::ast::GlobalId;
 use super::machine::Machine;
 use super::report::Diagnostic;
 use super::value::{Value, number};
 use crate::catalogue::{Bounds, Modifier, with_modifier};
-use crate::scene::{FieldShape, Node, Shape, refute};
+use crate::scene::{FieldShape, Node, Refutation, Shape, refute};
 use std::collections::HashMap;
 use std::sync::Arc;
 
 /// How many different regions one field is tested on.
 const MOST_REGIONS: usize = 16;
 
-/// The regions on which each claiming field is evaluated, by the name of the field.
-type Regions = HashMap<*const FieldShape, (Arc<FieldShape>, Vec<Bounds>)>;
+/// The regions on which each claiming field is evaluated, by its address.
+type Regions = HashMap<*const FieldShape, Vec<Bounds>>;
 
 impl Machine<'_> {
     /// Reports every claim that a point refutes: over the bounds of what shows the field, or, where nothing shows it,
@@ -23,83 +23,40 @@ impl Machine<'_> {
         for node in &self.shown {
             collect(node, node.bounds(), &mut regions);
         }
-        let mut refuted = HashMap::new();
-        for (field, regions) in regions.values() {
-            for region in regions {
-                self.test_claim(field, *region, &mut refuted);
-            }
-        }
-        let shown: Vec<String> = regions
-            .values()
-            .map(|(field, _)| field.name.clone())
-            .collect();
-        for node in self.fields.values().flatten() {
-            if let Shape::Field(field) = node.shape()
-                && !shown.contains(&field.name)
-            {
-                self.test_claim(field, Bounds::EVERYWHERE, &mut refuted);
-            }
-        }
-        for (name, (point, slope, claimed)) in refuted {
-            self.report_refuted(&name, point, slope, claimed);
-        }
-    }
-
-    fn test_claim(
-        &self,
-        field: &FieldShape,
-        region: Bounds,
-        refuted: &mut HashMap<String, ([f64; 3], f64, f64)>,
-    ) {
-        let Some(claimed) = field.claimed else {
-            return;
-        };
-        if let Some(found) = refute(&field.graph, claimed, region) {
-            let steepest =
-                refuted
-                    .entry(field.name.clone())
-                    .or_insert((found.point, found.slope, claimed));
-            if found.slope > steepest.1 {
-                *steepest = (found.point, found.slope, claimed);
+        for (id, field) in self.derived.clone() {
+            let Some(claimed) = field.claimed else {
+                continue;
+            };
+            let shown = regions.get(&Arc::as_ptr(&field)).cloned();
+            let steepest = shown
+                .unwrap_or_else(|| vec![Bounds::EVERYWHERE])
+                .into_iter()
+                .filter_map(|region| refute(&field.graph, claimed, region))
+                .max_by(|a, b| a.slope.total_cmp(&b.slope));
+            if let Some(found) = steepest {
+                self.report_refuted(id, claimed, found);
             }
         }
     }
 
-    fn report_refuted(&mut self, name: &str, point: [f64; 3], slope: f64, claimed: f64) {
-        let Some(span) = self.claim_span(name) else {
+    fn report_refuted(&mut self, id: GlobalId, claimed: f64, found: Refutation) {
+        let routine = self.routine(id);
+        let Some(claim) = &routine.claim else {
             return;
         };
+        let name = &routine.name.text;
         let message = format!("the claimed Lipschitz constant of `{name}` is refuted");
-        let error = Diagnostic::error(span, message)
+        let slope = number(&found.slope);
+        let error = Diagnostic::error(claim.span, message)
             .label(format!(
-                "claimed {}, but the slope is {} at {}",
+                "claimed {}, but the slope is {slope} at {}",
                 number(&claimed),
-                number(&slope),
-                Value::Vector3(point)
+                Value::Vector3(found.point)
             ))
             .help(format!(
-                "claim at least {}, or leave `lipschitz` out to have it derived",
-                number(&slope)
+                "claim at least {slope}, or leave `lipschitz` out to have it derived"
             ));
         self.diagnostics.push(error);
-    }
-
-    /// Where the field of this name makes its claim.
-    fn claim_span(&self, name: &str) -> Option<super::source::Span> {
-        let modules = self.program.modules.iter().enumerate();
-        modules
-            .flat_map(|(module, m)| {
-                (0..m.globals.len()).map(move |index| GlobalId {
-                    module: module as u32,
-                    index: index as u32,
-                })
-            })
-            .find_map(|id| match &self.statement(id).kind {
-                StatementKind::Routine(routine) if &*routine.name.text == name => {
-                    routine.claim.as_ref().map(|claim| claim.span)
-                }
-                _ => None,
-            })
     }
 }
 
@@ -109,9 +66,7 @@ fn collect(node: &Node, region: Bounds, regions: &mut Regions) {
         Shape::Primitive(_) => {}
         Shape::Field(field) => {
             if field.claimed.is_some() {
-                let (_, known) = regions
-                    .entry(Arc::as_ptr(field))
-                    .or_insert_with(|| (field.clone(), Vec::new()));
+                let known = regions.entry(Arc::as_ptr(field)).or_default();
                 if known.len() < MOST_REGIONS && !known.contains(&region) {
                     known.push(region);
                 }

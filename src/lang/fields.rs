@@ -159,7 +159,7 @@ impl<'a> Machine<'a> {
         match Node::field(field) {
             Ok(node) => {
                 if let Shape::Field(field) = node.shape() {
-                    self.derived.push(field.clone());
+                    self.derived.push((id, field.clone()));
                 }
                 let place = self.place(routine.name.span);
                 self.count_shape(&node, at)?;

@@ -38,7 +38,7 @@ pub(super) struct Machine<'a> {
     /// The shapes of fields with default arguments.
     pub fields: HashMap<GlobalId, Option<Arc<Node>>>,
     /// Every field that was made, whose constants take time to derive.
-    pub derived: Vec<Arc<FieldShape>>,
+    pub derived: Vec<(GlobalId, Arc<FieldShape>)>,
     effort: u64,
     /// Everything that is shown, for `trace`.
     pub shown: Vec<Arc<Node>>,
@@ -175,7 +175,8 @@ impl<'a> Machine<'a> {
         if self.derived.is_empty() {
             return Ok(());
         }
-        let effort = self.derived.iter().map(|field| field.graph.effort()).sum();
+        let efforts = self.derived.iter().map(|(_, field)| field.graph.effort());
+        let effort = efforts.sum();
         let before = std::mem::replace(&mut self.effort, effort);
         // An operation on intervals with derivatives takes about 160 ns, a step as long as two.
         self.tick((effort - before) / 2 + self.derived.len() as u64 / 16, at)
@@ -183,7 +184,7 @@ impl<'a> Machine<'a> {
 
     /// The file and line of `span`.
     pub fn place(&self, span: Span) -> Place {
-        let (line, _) = self.program.sources.line_column(span);
+        let line = self.program.sources.line(span);
         Place {
             file: self.program.sources.get(span.file).name.clone(),
             line: line as u32,
@@ -310,10 +311,10 @@ impl<'a> Machine<'a> {
     }
 
     fn range(&mut self, range: &'a RangeExpression) -> Eval<Value> {
-        let low = self.whole_range_number(&range.low)?;
-        let high = self.whole_range_number(&range.high)?;
+        let (low, is_angle) = self.range_end(&range.low, None)?;
+        let (high, _) = self.range_end(&range.high, Some(is_angle))?;
         let step = match &range.step {
-            Some(step) => Some(self.whole_range_number(step)?),
+            Some(step) => Some(self.range_end(step, Some(is_angle))?.0),
             None => None,
         };
         if let (Some(step), Some(expression)) = (step, &range.step)
@@ -332,20 +333,26 @@ impl<'a> Machine<'a> {
             high,
             is_inclusive: range.is_inclusive,
             step,
+            is_angle,
         })))
     }
 
-    /// A finite number for a range.
-    fn whole_range_number(&mut self, expression: &'a Expression) -> Eval<f64> {
-        match self.eval(expression)? {
-            // The angles of a `param`'s range are compared in radians.
-            Value::Number(x) | Value::Angle(x) if x.is_finite() => Ok(x),
+    /// A finite number or angle for a range, and whether it is an angle, as it may have to be.
+    fn range_end(&mut self, at: &'a Expression, is_angle: Option<bool>) -> Eval<(f64, bool)> {
+        let (value, found) = match self.eval(at)? {
+            Value::Number(x) if x.is_finite() => (x, false),
+            Value::Angle(x) if x.is_finite() => (x, true),
             value => {
-                let error =
-                    Diagnostic::error(expression.span, "a range goes between finite numbers");
-                self.fail(error.label(value.shown()))
+                let error = Diagnostic::error(at.span, "a range goes between finite numbers");
+                return self.fail(error.label(value.shown()));
             }
+        };
+        if is_angle.is_some_and(|is_angle| is_angle != found) {
+            let message = "a range is of numbers or of angles, not of both";
+            let error = Diagnostic::error(at.span, message);
+            return self.fail(error.help("angles carry a unit, as in `45deg`"));
         }
+        Ok((value, found))
     }
 
     /// The value of a block, in a scope of its own.
@@ -423,6 +430,10 @@ impl<'a> Machine<'a> {
     pub fn count_of(&mut self, items: &Value, at: Span) -> Eval<usize> {
         match items {
             Value::List(list) => Ok(list.items.len()),
+            Value::Range(range) if range.is_angle && range.step.is_none() => {
+                let error = Diagnostic::error(at, "a range of angles needs a step");
+                self.fail(error.help("as in `0deg..360deg step 45deg`"))
+            }
             Value::Range(range) => {
                 let count = range.count();
                 if count <= MAX_LIST as f64 {
@@ -511,7 +522,7 @@ impl<'a> Machine<'a> {
 pub(super) fn item_of(items: &Value, i: usize) -> Value {
     match items {
         Value::List(list) => list.items[i].clone(),
-        Value::Range(range) => Value::Number(range.element(i)),
+        Value::Range(range) => range.element(i),
         other => match other.quantity() {
             Some(quantity) => component_of(&quantity, i),
             None => other.clone(),

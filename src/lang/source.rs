@@ -30,6 +30,8 @@ pub struct Source {
     pub name: Arc<str>,
     /// The whole text.
     pub text: Arc<str>,
+    /// Where its lines start.
+    lines: Arc<[u32]>,
 }
 
 /// The texts that diagnostics point into.
@@ -39,9 +41,12 @@ pub struct Sources(Vec<Source>);
 impl Sources {
     /// Adds a text and gives its number.
     pub fn add(&mut self, name: &str, text: &str) -> u32 {
+        let ends = text.bytes().enumerate().filter(|(_, b)| *b == b'\n');
+        let starts = ends.map(|(i, _)| i as u32 + 1);
         self.0.push(Source {
             name: name.into(),
             text: text.into(),
+            lines: std::iter::once(0).chain(starts).collect(),
         });
         (self.0.len() - 1) as u32
     }
@@ -66,10 +71,17 @@ impl Sources {
 
     /// Line and column of the first byte of `span`, both from 1; columns count characters.
     pub fn line_column(&self, span: Span) -> (usize, usize) {
-        let before = &self.get(span.file).text[..span.start as usize];
-        let line = before.bytes().filter(|b| *b == b'\n').count() + 1;
-        let in_line = before.rfind('\n').map_or(0, |i| i + 1);
-        (line, before[in_line..].chars().count() + 1)
+        let source = self.get(span.file);
+        let line = self.line(span);
+        let start = source.lines[line - 1] as usize;
+        let before = &source.text[start..span.start as usize];
+        (line, before.chars().count() + 1)
+    }
+
+    /// The line of the first byte of `span`, from 1.
+    pub fn line(&self, span: Span) -> usize {
+        let lines = &self.get(span.file).lines;
+        lines.partition_point(|start| *start <= span.start)
     }
 }
 

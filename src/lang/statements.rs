@@ -262,13 +262,19 @@ impl<'a> Machine<'a> {
         };
         let allowed = self.eval(range)?;
         let is_in = match (&allowed, value) {
-            (Value::Range(range), Value::Number(x) | Value::Angle(x)) => range.contains(*x),
+            (Value::Range(range), Value::Number(x)) if !range.is_angle => range.contains(*x),
+            (Value::Range(range), Value::Angle(x)) if range.is_angle => range.contains(*x),
             (Value::List(_) | Value::Vector2(_) | Value::Vector3(_), _) => {
                 let count = self.count_of(&allowed, range.span)?;
                 (0..count).any(|i| {
                     super::operators::equal(&super::machine::item_of(&allowed, i), value)
                         == Some(true)
                 })
+            }
+            (Value::Range(_), Value::Number(_) | Value::Angle(_)) => {
+                let message = "the range of a number is of numbers, that of an angle of angles";
+                let error = Diagnostic::error(range.span, message).label(allowed.shown());
+                return self.fail(error.help("angles carry a unit, as in `45deg`"));
             }
             _ => {
                 let message = "a parameter's range is a range of numbers or a list of values";

@@ -43,6 +43,7 @@ pub(super) fn parse(file: u32, text: &str) -> Parsed {
     }
     let mut at = 0;
     while at < text.len() && parsed.diagnostics.len() < MAX_PARSE_ERRORS {
+        at += complaint::blank_length(&text[at..]);
         let rest = statement_text(&text[at..]);
         let error = match Grammar::parse(Rule::next, rest) {
             Ok(mut pairs) => {
@@ -53,6 +54,10 @@ pub(super) fn parse(file: u32, text: &str) -> Parsed {
                     parsed.diagnostics.push(too_long(file, at));
                     break;
                 };
+                if length == rest.len() && rest.len() < text.len() - at {
+                    parsed.diagnostics.push(too_long(file, at));
+                    break;
+                }
                 let mut builder = Builder::new(file, at as u32);
                 let built = builder.statement(statement);
                 // Where a literal is wrong, what follows from it would only repeat that.
@@ -90,8 +95,9 @@ pub(super) fn parse(file: u32, text: &str) -> Parsed {
 /// Whether what could not be read stands on the line on which the statement before it ended: then it was meant to belong
 /// to it.
 fn continues(statements: &[Statement], text: &str, at: usize) -> bool {
-    let start = at + complaint::blank_length(&text[at..]);
-    !statements.is_empty() && !text[at..start].contains('\n')
+    let line = text[..at].rfind('\n').map_or(0, |i| i + 1);
+    let is_there = |last: &Statement| last.span.end as usize > line;
+    statements.last().is_some_and(is_there)
 }
 
 /// Takes the last statement back, but for the name that it defines.

@@ -55,6 +55,8 @@ pub(super) struct Range {
     pub is_inclusive: bool,
     /// The distance between elements; 1 where none is given.
     pub step: Option<f64>,
+    /// Whether the numbers are angles, in radians.
+    pub is_angle: bool,
 }
 
 impl Range {
@@ -72,8 +74,12 @@ impl Range {
     }
 
     /// Element number `i`.
-    pub fn element(&self, i: usize) -> f64 {
-        self.low + i as f64 * self.step.unwrap_or(1.0)
+    pub fn element(&self, i: usize) -> Value {
+        let x = self.low + i as f64 * self.step.unwrap_or(1.0);
+        match self.is_angle {
+            true => Value::Angle(x),
+            false => Value::Number(x),
+        }
     }
 
     /// Whether `x` lies between the ends, and on a step where one is given.
@@ -357,9 +363,13 @@ impl fmt::Display for Value {
             }
             Self::Range(range) => {
                 let mark = if range.is_inclusive { "..=" } else { ".." };
-                write!(f, "{}{mark}{}", number(&range.low), number(&range.high))?;
+                let shown = |x: f64| match range.is_angle {
+                    true => Self::Angle(x),
+                    false => Self::Number(x),
+                };
+                write!(f, "{}{mark}{}", shown(range.low), shown(range.high))?;
                 match range.step {
-                    Some(step) => write!(f, " step {}", number(&step)),
+                    Some(step) => write!(f, " step {}", shown(step)),
                     None => Ok(()),
                 }
             }

@@ -672,7 +672,7 @@ fn wrong_usage_exits_with_2() {
     let folder = Folder::with_scene("usage");
     for (arguments, words) in [
         (&["render", "scene.sdf", "--size", "640"][..], "640x360"),
-        (&["render", "scene.sdf", "--size", "0x5"], "from 1 to 32768"),
+        (&["render", "scene.sdf", "--size", "0x5"], "from 1 to 16384"),
         (&["render", "scene.sdf", "-D", "radius"], "teeth=30"),
         (&["render", "scene.sdf", "--samples", "0"], "1..=65536"),
         (&["render", "scene.sdf", "--tolerance", "-1"], "above zero"),

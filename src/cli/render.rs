@@ -39,7 +39,7 @@ pub struct Arguments {
     /// The picture's file [default: the script's name with .png, in the current folder]
     #[arg(short, long, value_name = "OUT.png")]
     output: Option<PathBuf>,
-    /// Width and height in pixels, up to 32768 each [default: what the script says, or else 640x360]
+    /// Width and height in pixels, up to 16384 each [default: what the script says, or else 640x360]
     #[arg(long, value_name = "WxH", value_parser = value::size, allow_hyphen_values = true)]
     size: Option<[u32; 2]>,
     /// Rays per pixel [default: what the script says, or else 1]

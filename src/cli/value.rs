@@ -1,7 +1,9 @@
 //! The values of options, from their text.
 
+use crate::scene::Settings;
+
 /// The smallest and the largest width or height of a picture, in pixels.
-const SIDES: std::ops::RangeInclusive<u32> = 1..=32768;
+const SIDES: std::ops::RangeInclusive<u32> = 1..=Settings::MAX_SIDE;
 
 /// The size of a picture from `WIDTHxHEIGHT`, in pixels.
 ///
@@ -124,10 +126,10 @@ mod tests {
     #[test]
     fn sizes_have_limits() {
         assert_eq!(size("640x360"), Ok([640, 360]));
-        assert_eq!(size("1X32768"), Ok([1, 32768]));
+        assert_eq!(size("1X16384"), Ok([1, 16384]));
         assert_eq!(
             size("0x10").unwrap_err(),
-            "the width must be a whole number from 1 to 32768, and is `0`"
+            "the width must be a whole number from 1 to 16384, and is `0`"
         );
         assert!(size("10x32769").unwrap_err().contains("height"));
         assert!(size("640").unwrap_err().contains("640x360"));

@@ -229,7 +229,10 @@ impl<'a> Machine<'a> {
         let mut terms = Terms::new(self, (&word.text, word.span), entries, &known);
         let default = Settings::default();
         let whole = |low: f64, high: f64| move |x: f64| low <= x && x <= high && x.fract() == 0.0;
-        let pixels = ("whole numbers from 1 to 65536", whole(1.0, 65_536.0));
+        let pixels = (
+            "whole numbers from 1 to 16384",
+            whole(1.0, f64::from(Settings::MAX_SIDE)),
+        );
         let size = terms.pair(self, "size", pixels);
         let mut count = |machine: &mut Self, name, words, (low, high), default: u32| {
             terms.number(machine, name, (words, whole(low, high)), f64::from(default)) as u32

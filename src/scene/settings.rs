@@ -49,6 +49,11 @@ pub struct Settings {
     pub seed: u64,
 }
 
+impl Settings {
+    /// The largest width or height of a picture, in pixels; a square of it takes 3 GiB of film.
+    pub const MAX_SIDE: u32 = 16_384;
+}
+
 impl Default for Settings {
     fn default() -> Self {
         Self {

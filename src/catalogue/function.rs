@@ -37,8 +37,8 @@ macro_rules! functions {
             pub fn apply<N: Number>(self, arguments: &[N]) -> N {
                 match self {
                     $(Self::$variant => {
-                        let mut rest = arguments.iter().copied();
-                        $(let $arg = rest.next().expect("as many arguments as the function names");)+
+                        let mut place = 0..arguments.len();
+                        $(let $arg = arguments[place.next().expect("as many arguments as the function names")];)+
                         $body
                     })+
                 }

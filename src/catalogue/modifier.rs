@@ -50,6 +50,17 @@ pub trait Modifier: Declared {
     }
 }
 
+/// The product of the matrix with these rows and `p`. Written out: a closure inside of `array::map` would be compiled
+/// without the instructions of the caller.
+#[inline(always)]
+pub(super) fn rotated<N: Number>(rows: &[[f64; 3]; 3], p: &Vec3<N>) -> Vec3<N> {
+    Vec3::new(
+        Vec3::splat(rows[0]).dot(*p),
+        Vec3::splat(rows[1]).dot(*p),
+        Vec3::splat(rows[2]).dot(*p),
+    )
+}
+
 /// A map that keeps angles: the child is evaluated at `rows * p + shift` and its value is multiplied by `scale`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Similarity {
@@ -85,8 +96,7 @@ impl Similarity {
     /// The point at which the child is evaluated.
     #[inline(always)]
     pub fn point<N: Number>(&self, p: &Vec3<N>) -> Vec3<N> {
-        let [x, y, z] = self.rows.map(|r| Vec3::splat(r).dot(*p));
-        Vec3::new(x, y, z) + Vec3::splat(self.shift)
+        rotated(&self.rows, p) + Vec3::splat(self.shift)
     }
 
     /// The outside point that the child's point `q` comes from.

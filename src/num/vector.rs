@@ -29,7 +29,7 @@ impl<N: Number> Vec3<N> {
 
     /// `f` of each component.
     #[inline(always)]
-    pub fn map(self, f: impl Fn(N) -> N) -> Self {
+    pub fn each(self, f: impl Fn(N) -> N) -> Self {
         Self::new(f(self.x), f(self.y), f(self.z))
     }
 
@@ -64,7 +64,7 @@ impl<N: Number> Vec3<N> {
     /// Absolute values of the components.
     #[inline(always)]
     pub fn abs(self) -> Self {
-        self.map(N::abs)
+        self.each(N::abs)
     }
 
     /// The larger of each pair of components.

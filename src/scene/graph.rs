@@ -320,7 +320,7 @@ fn step<N: Number>(
         Op::Multiply(a, b) => r(a) * r(b),
         Op::Divide(a, b) => r(a) / r(b),
         Op::Square(a) => r(a).square(),
-        Op::Call(function, ids) => function.apply(&ids.map(r)),
+        Op::Call(function, [a, b, c]) => function.apply(&[r(a), r(b), r(c)]),
         Op::Select([a, b, x, y]) => N::select_lt(r(a), r(b), r(x), r(y)),
         Op::Shape(index, [x, y, z]) => shape(index as usize, &Vec3::new(r(x), r(y), r(z))),
     }

@@ -121,8 +121,8 @@ impl Repeat {
         let Some(row) = &self.axes[axis] else {
             return N::splat(f64::INFINITY);
         };
-        let [u, v] =
-            [(axis + 1) % 3, (axis + 2) % 3].map(|i| gap_to(&self.grid, i, p.component(i)));
+        let gap = |axis: usize| gap_to(&self.grid, axis, p.component(axis));
+        let (u, v) = (gap((axis + 1) % 3), gap((axis + 2) % 3));
         N::norm3(row.left_over(p.component(axis)), u, v)
     }
 

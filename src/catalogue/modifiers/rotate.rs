@@ -1,5 +1,6 @@
 //! Rotation.
 
+use crate::catalogue::modifier::rotated;
 use crate::catalogue::{Bounds, Kind, Modifier, Range, Similarity, Traits, declaration::entry};
 use crate::num::{Number, Vec3};
 
@@ -77,8 +78,7 @@ impl Modifier for Rotate {
 
     #[inline(always)]
     fn apply<N: Number>(&self, p: &Vec3<N>, child: impl Fn(&Vec3<N>) -> N) -> N {
-        let [x, y, z] = self.rows.map(|row| Vec3::splat(row).dot(*p));
-        child(&Vec3::new(x, y, z))
+        child(&rotated(&self.rows, p))
     }
 
     fn sublevel(&self, level: f64, child: &dyn Fn(f64) -> Bounds) -> Bounds {

@@ -11,6 +11,9 @@ entry! {
         /// The radius of the corners, at most half the shorter side.
         round: f64, Number, Range::NOT_NEGATIVE, default 0.0;
     }
+    derived {
+        core: [f64; 2] = size.map(|s| 0.5 * s - round);
+    }
     source "Quilez, 2D distance functions (box, rounded box); a distance, so its constant is 1"
     example "rectangle([1, 0.6], round: 0.1).extrude(0.4)"
 }
@@ -19,8 +22,8 @@ impl Primitive for Rectangle {
     #[inline(always)]
     fn distance<N: Number>(&self, p: &Vec3<N>) -> N {
         let zero = N::splat(0.0);
-        let [w, h] = self.size.map(|s| N::splat(0.5 * s - self.round));
-        let (u, v) = (p.x.abs() - w, p.y.abs() - h);
+        let [w, h] = self.core;
+        let (u, v) = (p.x.abs() - N::splat(w), p.y.abs() - N::splat(h));
         u.max(zero).hypot(v.max(zero)) + u.max(v).min(zero) - N::splat(self.round)
     }
 

@@ -11,6 +11,9 @@ entry! {
         /// The radius of the edges, at most half the shortest side.
         round: f64, Number, Range::NOT_NEGATIVE, default 0.0;
     }
+    derived {
+        core: [f64; 3] = size.map(|s| 0.5 * s - round);
+    }
     source "Quilez, distance functions (box, round box); a distance, so its constant is 1"
     example "box([1.4, 0.8, 1], round: 0.1)"
 }
@@ -18,9 +21,8 @@ entry! {
 impl Primitive for Cuboid {
     #[inline(always)]
     fn distance<N: Number>(&self, p: &Vec3<N>) -> N {
-        let core = self.size.map(|s| 0.5 * s - self.round);
-        let q = p.abs() - Vec3::splat(core);
-        let outside = q.map(|c| c.max(N::splat(0.0))).length();
+        let q = p.abs() - Vec3::splat(self.core);
+        let outside = q.each(|c| c.max(N::splat(0.0))).length();
         outside + q.max_component().min(N::splat(0.0)) - N::splat(self.round)
     }
 

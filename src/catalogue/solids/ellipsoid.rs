@@ -9,25 +9,23 @@ entry! {
         /// The semi-axes along x, y and z, in scene units.
         radii: [f64; 3], Vector3, Range::POSITIVE, default [1.0, 0.6, 0.8];
     }
+    derived {
+        inverse: [f64; 3] = radii.map(|r| 1.0 / r);
+        smallest: f64 = radii.into_iter().fold(f64::INFINITY, f64::min);
+    }
     source "(|p / r| - 1) min(r): the gauge of a convex body, whose slope is at most 1 / min(r)"
     example "ellipsoid([1, 0.6, 0.8])"
-}
-
-impl Ellipsoid {
-    fn smallest(&self) -> f64 {
-        self.radii.into_iter().fold(f64::INFINITY, f64::min)
-    }
 }
 
 impl Primitive for Ellipsoid {
     #[inline(always)]
     fn distance<N: Number>(&self, p: &Vec3<N>) -> N {
-        let gauge = p.times(Vec3::splat(self.radii.map(|r| 1.0 / r))).length();
-        (gauge - N::splat(1.0)) * N::splat(self.smallest())
+        let gauge = p.times(Vec3::splat(self.inverse)).length();
+        (gauge - N::splat(1.0)) * N::splat(self.smallest)
     }
 
     fn sublevel(&self, level: f64) -> Bounds {
-        let gauge = 1.0 + level / self.smallest();
+        let gauge = 1.0 + level / self.smallest;
         Bounds::centred(self.radii.map(|r| r * gauge))
     }
 

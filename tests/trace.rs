@@ -600,3 +600,157 @@ fn rays_inside_of_convex_shapes_find_the_far_side() {
         );
     }
 }
+
+fn down(x: f64, y: f64, z: f64) -> Ray {
+    ray([x, y, z], [0.0, -1.0, 0.0])
+}
+
+#[test]
+fn surfaces_on_the_border_of_their_bounds_are_found() {
+    // A half-space with a dent: its bounds end at its surface, wherever that lies.
+    for height in [0.0, 1.0, 100.0, 1e4, -1e6] {
+        let floor = leaf(AnyPrimitive::Plane(Plane::new([0.0, 1.0, 0.0], height)));
+        let dent = moved(&sphere(0.7), [50.0, height, 0.0]);
+        let node = combined(Operation::Difference, AnyBlend::HARD, &[floor, dent]);
+        let world = world(&node, Method::Auto);
+        for i in 0..50 {
+            let ray = ray(
+                [2.0, height + 1.7, 5.0],
+                [random(i) - 0.5, -0.2 - random(i + 99), random(i + 50) - 0.5],
+            );
+            let out = world.nearest(&[ray], Visibility::All)[0];
+            assert_eq!(
+                out.verdict,
+                Verdict::Hit,
+                "height {height}: ray {i} {out:?}"
+            );
+            assert!(
+                (out.t * ray.direction.y + 1.7).abs() < 1e-6 * (1.0 + height.abs() * 1e-6),
+                "{out:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn endless_shapes_are_seen_from_the_origin_of_the_world() {
+    let grid = modified(
+        AnyModifier::Repeat(Repeat::new([1.0; 3], [f64::INFINITY; 3])),
+        &moved(&sphere(0.2), [0.05, 0.5, 0.5]),
+    );
+    let out =
+        world(&grid, Method::Auto).nearest(&[ray([0.0; 3], [1.0, 0.1, 0.3])], Visibility::All)[0];
+    assert_eq!(out.verdict, Verdict::Hit, "{out:?}");
+    let dented = combined(
+        Operation::Difference,
+        AnyBlend::HARD,
+        &[
+            leaf(AnyPrimitive::Plane(Plane::new([0.0, 1.0, 0.0], -1.0))),
+            moved(&sphere(0.5), [3.0, -1.0, 0.0]),
+        ],
+    );
+    let out = world(&dented, Method::Auto).nearest(&[down(0.0, 0.0, 0.0)], Visibility::All)[0];
+    assert!((out.t - 1.0).abs() < 1e-9, "{out:?}");
+    // At a millionth of a degree above the horizon.
+    let a = 1e-6f64.to_radians();
+    let out = world(&dented, Method::Sphere).nearest(
+        &[ray([0.0, 0.0, 9.0], [a.cos(), a.sin(), 0.0])],
+        Visibility::All,
+    )[0];
+    assert_ne!(out.verdict, Verdict::Hit, "{out:?}");
+}
+
+#[test]
+fn sheets_thinner_than_a_step_are_found() {
+    for exponent in 2..=9 {
+        let w = 10f64.powi(-exponent);
+        let far_cut = moved(&cuboid([0.1; 3], 0.0), [5.0; 3]);
+        let shell = modified(AnyModifier::Shell(Shell::new(w)), &sphere(1.0));
+        let node = combined(Operation::Difference, AnyBlend::HARD, &[shell, far_cut]);
+        let world = world(&node, Method::Auto);
+        let rays: Vec<Ray> = (0..200)
+            .map(|i| {
+                ray(
+                    [0.0, 0.0, 5.0],
+                    [
+                        0.18 * (random(i) - 0.5),
+                        0.18 * (random(i + 777) - 0.5),
+                        -1.0,
+                    ],
+                )
+            })
+            .collect();
+        for (i, (ray, out)) in rays
+            .iter()
+            .zip(world.nearest(&rays, Visibility::All))
+            .enumerate()
+        {
+            let b = ray.origin.dot(ray.direction);
+            let r = 1.0 + 0.5 * w;
+            let expected = -b - (b * b - 25.0 + r * r).sqrt();
+            assert_eq!(out.verdict, Verdict::Hit, "w {w}: ray {i}");
+            assert!(
+                (out.t - expected).abs() < 1e-7,
+                "w {w}: ray {i}: {} but {expected}",
+                out.t
+            );
+        }
+    }
+}
+
+#[test]
+fn a_tangent_sphere_does_not_hide_what_stands_before_it() {
+    let both = [sphere(1.0), moved(&sphere(0.3), [0.0, 1.0, 3.0])];
+    let world = World::of(&both, &Settings::default()).expect("a world");
+    let out = world.nearest(&[ray([0.0, 1.0, 5.0], [0.0, 0.0, -1.0])], Visibility::All)[0];
+    assert!((out.t - 1.7).abs() < 1e-12, "{out:?}");
+}
+
+#[test]
+fn a_closed_outline_is_the_same_polygon() {
+    let corners = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+    let mut closed = corners.clone();
+    closed.extend([[0.0, 1.0], [0.0, 0.0]]);
+    let field = |points| {
+        value(
+            &leaf(AnyPrimitive::Polygon(Polygon::new(points))),
+            DVec3::new(3.0, 3.0, 0.0),
+        )
+    };
+    assert_eq!(field(corners), field(closed));
+}
+
+#[test]
+fn slopes_of_a_blend_are_halves_where_its_shapes_tie() {
+    use fieldstone::num::Dual;
+    let blended = |operation| {
+        let wall = |normal| leaf(AnyPrimitive::Plane(Plane::new(normal, 0.0)));
+        combined(
+            operation,
+            smooth(0.4),
+            &[wall([1.0, 0.0, 0.0]), wall([0.0, 1.0, 0.0])],
+        )
+    };
+    for (operation, expected) in [
+        (Operation::Union, [0.5, 0.5]),
+        (Operation::Intersection, [0.5, 0.5]),
+        (Operation::Difference, [0.5, -0.5]),
+    ] {
+        // Difference ties where the body's field is minus the tool's.
+        let y = if operation == Operation::Difference {
+            -0.1
+        } else {
+            0.1
+        };
+        let p = Vec3::new(
+            Dual::<f64, 2>::variable(0.1, 0),
+            Dual::variable(y, 1),
+            Dual::new(0.0, [0.0; 2]),
+        );
+        assert_eq!(
+            blended(operation).evaluate(&p).partial,
+            expected,
+            "{operation:?}"
+        );
+    }
+}

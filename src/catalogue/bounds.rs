@@ -120,6 +120,15 @@ impl Bounds {
         x.hypot(y).hypot(z)
     }
 
+    /// The largest absolute value of any coordinate that is finite; 0 where there is none.
+    pub fn finite_size(&self) -> f64 {
+        let sides = self.low.iter().chain(&self.high);
+        sides
+            .map(|c| c.abs())
+            .filter(|c| c.is_finite())
+            .fold(0.0, f64::max)
+    }
+
     /// The middle of the box.
     pub fn centre(&self) -> [f64; 3] {
         std::array::from_fn(|i| 0.5 * (self.low[i] + self.high[i]))

@@ -44,10 +44,13 @@ impl Ball {
         let (near, far, half_chord) = self.crossings(ray)?;
         let size = (ray.origin - self.centre).length() + self.radius;
         // The foot of the perpendicular is known to a few roundings of `size`, its square to a few of size * radius.
-        let error = 8.0 * U * size * (1.0 + self.radius / half_chord.max(U * size));
+        // Where the ray is tangent, half the chord itself is known to the root of that only.
+        let place = 8.0 * U * size;
+        let chord = half_chord.max((2.0 * self.radius * place).sqrt());
+        let error = place * (1.0 + self.radius / chord);
         let on_surface = 16.0 * U * size;
         let t = if near > on_surface { near } else { far };
-        (t > on_surface).then_some(Crossing { t, error })
+        (t > on_surface && t.is_finite()).then_some(Crossing { t, error })
     }
 
     /// Both crossings in order, and half their distance, where the line meets the sphere.

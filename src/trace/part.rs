@@ -164,10 +164,7 @@ fn widened(bounds: Bounds) -> Bounds {
     if bounds.is_empty() {
         return bounds;
     }
-    let size = (0..3)
-        .map(|i| bounds.reach(i))
-        .filter(|r| r.is_finite())
-        .fold(0.0, f64::max);
+    let size = bounds.finite_size();
     bounds.inflate(size * 1e-9)
 }
 

@@ -69,7 +69,7 @@ impl Search {
         let is_nearer = match self.best {
             None => true,
             Some((best, other)) => {
-                let margin = ending.error + best.error;
+                let margin = ending.error.min(best.error) + 4.0 * f64::EPSILON * best.t;
                 if (ending.t - best.t).abs() <= margin {
                     part < other
                 } else {
@@ -321,19 +321,20 @@ impl World {
 
     fn segment(&self, ray: &Ray, part: &Marched, start: f64, end: f64) -> Segment {
         let origin = ray.origin.abs().max_element();
-        let reach = if part.region.is_finite() {
-            part.region.radius()
+        let is_endless = !part.region.is_finite();
+        let reach = if is_endless {
+            self.horizon.max(part.region.finite_size())
         } else {
-            self.horizon
+            part.region.radius()
         };
-        // Followed for ever, a ray would meet the end of floating point: 2^24 times the size of everything is enough.
-        let far = 16_777_216.0 * (origin + reach).max(ray.footprint.at_origin);
+        // Room for the rounding of places along the ray.
+        let slack = |t: f64| 32.0 * f64::EPSILON * (origin + t);
         Segment {
-            start,
-            end: if part.region.is_finite() {
+            start: (start - slack(start)).max(0.0),
+            end: if end == ray.t_max {
                 end
             } else {
-                end.min(far.max(f64::MIN_POSITIVE))
+                end + slack(end)
             },
             lipschitz: part.lipschitz,
             footprint: ray.footprint,
@@ -341,6 +342,7 @@ impl World {
             max_steps: self.settings.max_steps,
             size: origin + reach,
             is_sheet: part.is_sheet,
+            is_endless,
         }
     }
 

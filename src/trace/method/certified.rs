@@ -2,9 +2,12 @@
 //!
 //! Steps are Hart's, |f| / lambda, but never shorter than the tolerance: near a surface the ray walks on by that much
 //! until the field changes its sign, and the root is then enclosed to rounding. So silhouettes do not grow by epsilon, a
-//! ray that starts on a surface leaves it, and a touch from outside is no hit. A root is passed over only together with
-//! a second one closer to it along the ray than the tolerance. A field that changes faster than lambda allows
-//! refutes its constant, and the walk ends as unknown. Source: Hart 1996; bracketing after Dowell and Jarratt 1971.
+//! ray that starts on a surface leaves it, and a touch from outside is no hit. A step longer than is known to be free
+//! is doubted afterwards: between two values a and b of one sign there is no root if |a| + |b| >= lambda times the
+//! distance; else it is halved until that holds, a root appears, or a budget ends. So thin sheets are found, and a root is
+//! passed over only together with a second one, where the ray grazes. A field that changes faster than lambda allows
+//! refutes its constant, and the walk ends as unknown. Sources: Hart 1996; bracketing after Dowell and Jarratt 1971; the
+//! two-sided test as in POV-Ray's isosurfaces.
 
 use super::{Ending, Segment, Walk};
 use crate::trace::Verdict;
@@ -17,12 +20,25 @@ struct Sample {
 }
 
 /// What the walk is doing.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum Phase {
     /// Stepping forward; the last sample that was not zero, if there is one.
     Marching(Option<Sample>),
+    /// Looking between two samples of one sign for a pair of roots.
+    Doubting(Doubt),
     /// Narrowing a change of sign between two samples.
     Enclosing(Sample, Sample),
+}
+
+/// The part of a step that is not known to be free.
+#[derive(Clone, Debug)]
+struct Doubt {
+    /// Up to here it is.
+    left: Sample,
+    /// Samples further on, the nearest last, the end of the step first.
+    pending: Vec<Sample>,
+    /// How many more samples may be taken.
+    budget: u32,
 }
 
 /// A walk by certified sphere tracing.
@@ -31,16 +47,21 @@ pub struct Certified {
     phase: Phase,
     t: f64,
     steps: u32,
-    /// Whether a sheet that the ray may have started on lies behind it.
+    /// Whether the surface that the ray may have started on lies behind it.
     has_departed: bool,
     /// Evaluations spent on enclosing.
     narrowings: u32,
-    noise: f64,
+    /// Beyond this, a ray through a shape without end is given up.
+    far: f64,
 }
 
 impl Certified {
     /// More narrowings than halving needs from any width to rounding.
     const MAX_NARROWINGS: u32 = 200;
+
+    /// How many samples may be taken inside of one step: a sheet met at 10 degrees or more is found down to 2^-40 of the
+    /// step.
+    const MAX_DOUBTS: u32 = 256;
 
     fn end(&self, verdict: Verdict, t: f64, error: f64) -> Option<Ending> {
         Some(Ending {
@@ -51,11 +72,24 @@ impl Certified {
         })
     }
 
-    fn march(&mut self, now: Sample, last: Option<Sample>) -> Option<Ending> {
+    /// The smallest difference of distances that rounding leaves at `t`.
+    fn finest(&self, t: f64) -> f64 {
+        4.0 * f64::EPSILON * self.segment.size.max(t)
+    }
+
+    fn march(&mut self, mut now: Sample, last: Option<Sample>) -> Option<Ending> {
         let segment = self.segment;
         self.steps += 1;
+        if self.steps == 1 {
+            self.far = segment.far(now.value);
+            // The region holds the solid, so a ray that comes into it is outside, whatever rounding says.
+            if now.t > 0.0 && now.value <= 0.0 {
+                now.value = f64::MIN_POSITIVE;
+            }
+        }
         if let Some(last) = last {
-            let allowed = segment.lipschitz * (now.t - last.t) * (1.0 + 1e-9) + self.noise;
+            let width = now.t - last.t;
+            let allowed = segment.lipschitz * width * (1.0 + 1e-9) + segment.noise(now.t);
             if (now.value - last.value).abs() > allowed {
                 return self.end(Verdict::Unknown, last.t, f64::INFINITY);
             }
@@ -63,29 +97,41 @@ impl Certified {
                 self.phase = Phase::Enclosing(last, now);
                 return self.narrow();
             }
-        }
-        let epsilon = segment
-            .epsilon(now.t)
-            .max(4.0 * f64::EPSILON * segment.size.max(now.t));
-        let free = now.value.abs() / segment.lipschitz;
-        if segment.is_sheet {
-            if free <= epsilon && self.has_departed {
-                return self.end(Verdict::Hit, now.t, epsilon);
+            if self.has_departed && !segment.is_sheet && !self.is_free(last, now) {
+                self.phase = Phase::Doubting(Doubt {
+                    left: last,
+                    pending: vec![now],
+                    budget: Self::MAX_DOUBTS,
+                });
+                return self.doubt();
             }
-            self.has_departed |= free > epsilon;
         }
-        if now.t >= segment.end {
+        self.advance(now, last)
+    }
+
+    /// Goes on from `now`, up to which the ray is free.
+    fn advance(&mut self, now: Sample, last: Option<Sample>) -> Option<Ending> {
+        let segment = self.segment;
+        let epsilon = segment.epsilon(now.t).max(self.finest(now.t));
+        let free = now.value.abs() / segment.lipschitz;
+        if segment.is_sheet && free <= epsilon && self.has_departed {
+            return self.end(Verdict::Hit, now.t, epsilon);
+        }
+        self.has_departed |= free > epsilon || segment.start > 0.0;
+        if now.t >= segment.end || now.t + free > segment.end {
             return self.end(Verdict::Miss, segment.end, 0.0);
+        }
+        if now.t > self.far {
+            let verdict = segment.verdict_at_far(now.t, free);
+            return self.end(verdict, now.t, f64::INFINITY);
         }
         if self.steps >= segment.max_steps {
             return self.end(Verdict::Unknown, now.t, f64::INFINITY);
         }
         // A zero is a touch until the sign behind it is known; and so is what the ray starts on.
-        let is_on_surface = now.value == 0.0 || (now.t == 0.0 && now.value.abs() <= self.noise);
+        let is_start = now.t == 0.0 && now.value.abs() <= segment.noise(0.0);
+        let is_on_surface = now.value == 0.0 || is_start;
         self.phase = Phase::Marching(if is_on_surface { last } else { Some(now) });
-        if now.t + free > segment.end {
-            return self.end(Verdict::Miss, segment.end, 0.0);
-        }
         // A step longer than is known to be free must not jump over the end of the segment.
         self.t = if free >= epsilon {
             now.t + free
@@ -95,13 +141,55 @@ impl Certified {
         None
     }
 
+    /// Whether there is surely no root between two samples of one sign.
+    fn is_free(&self, left: Sample, right: Sample) -> bool {
+        let width = right.t - left.t;
+        left.value.abs() + right.value.abs() >= self.segment.lipschitz * width * (1.0 - 1e-9)
+    }
+
+    /// The next place inside of a doubtful step, or the way on where nothing is left to doubt.
+    fn doubt(&mut self) -> Option<Ending> {
+        let Phase::Doubting(mut doubt) = std::mem::replace(&mut self.phase, Phase::Marching(None))
+        else {
+            return None;
+        };
+        let step_end = doubt.pending[0];
+        while let Some(right) = doubt.pending.last().copied() {
+            let width = right.t - doubt.left.t;
+            if self.is_free(doubt.left, right) || width <= self.finest(right.t) {
+                doubt.left = right;
+                doubt.pending.pop();
+                continue;
+            }
+            if doubt.budget == 0 {
+                break;
+            }
+            doubt.budget -= 1;
+            self.t = doubt.left.t + 0.5 * width;
+            self.phase = Phase::Doubting(doubt);
+            return None;
+        }
+        self.advance(step_end, None)
+    }
+
+    /// Takes a sample inside of a doubtful step.
+    fn settle(&mut self, now: Sample, mut doubt: Doubt) -> Option<Ending> {
+        if now.value != 0.0 && (now.value < 0.0) != (doubt.left.value < 0.0) {
+            self.phase = Phase::Enclosing(doubt.left, now);
+            return self.narrow();
+        }
+        doubt.pending.push(now);
+        self.phase = Phase::Doubting(doubt);
+        self.doubt()
+    }
+
     /// The next place inside the enclosure, or the end if it is as narrow as rounding allows.
     fn narrow(&mut self) -> Option<Ending> {
         let Phase::Enclosing(low, high) = self.phase else {
             return None;
         };
         let width = high.t - low.t;
-        let finest = 4.0 * f64::EPSILON * self.segment.size.max(high.t);
+        let finest = self.finest(high.t);
         if high.value == 0.0 || width <= finest || self.narrowings >= Self::MAX_NARROWINGS {
             let t = if high.value == 0.0 {
                 high.t
@@ -135,7 +223,7 @@ impl Walk for Certified {
             steps: 0,
             has_departed: segment.start > 0.0,
             narrowings: 0,
-            noise: segment.noise(),
+            far: f64::INFINITY,
         }
     }
 
@@ -148,8 +236,9 @@ impl Walk for Certified {
             return self.end(Verdict::Unknown, self.t, f64::INFINITY);
         }
         let now = Sample { t: self.t, value };
-        match self.phase {
+        match std::mem::replace(&mut self.phase, Phase::Marching(None)) {
             Phase::Marching(last) => self.march(now, last),
+            Phase::Doubting(doubt) => self.settle(now, doubt),
             Phase::Enclosing(low, high) => {
                 let is_low = value != 0.0 && (value < 0.0) == (low.value < 0.0);
                 self.phase = if is_low {

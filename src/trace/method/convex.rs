@@ -24,7 +24,6 @@ pub struct Convex {
     t: f64,
     steps: u32,
     way: Way,
-    noise: f64,
 }
 
 impl Convex {
@@ -43,14 +42,14 @@ impl Convex {
     }
 
     fn hit(&self, value: f64, slope: f64) -> Option<Ending> {
-        let error = (self.noise / slope.abs()).max((value / slope).abs());
+        let error = (self.segment.noise(self.t) / slope.abs()).max((value / slope).abs());
         let error = error.min(self.segment.epsilon(self.t)).max(self.finest());
         self.end(Verdict::Hit, self.t, error)
     }
 
     /// A ray whose first value is not positive starts inside, or on the surface.
     fn start_inside(&mut self, value: f64, slope: f64) -> Option<Ending> {
-        let leaves = value >= -self.noise && slope >= 0.0;
+        let leaves = value >= -self.segment.noise(self.t) && slope >= 0.0;
         if leaves && self.t == 0.0 {
             return self.end(Verdict::Miss, self.segment.end, 0.0);
         }
@@ -115,7 +114,6 @@ impl Walk for Convex {
             t: segment.start,
             steps: 0,
             way: Way::Ahead,
-            noise: segment.noise(),
         }
     }
 

@@ -32,6 +32,8 @@ pub struct Segment {
     pub size: f64,
     /// Whether the field is never negative.
     pub is_sheet: bool,
+    /// Whether the shape has no finite bounds.
+    pub is_endless: bool,
 }
 
 impl Segment {
@@ -40,10 +42,33 @@ impl Segment {
         self.tolerance * self.footprint.at(t)
     }
 
-    /// How much of a difference between two values of the field may be rounding: coordinates are rounded to
-    /// `size * 2^-53`, and a tree of a few dozen operations adds about as many roundings.
-    pub fn noise(&self) -> f64 {
-        64.0 * f64::EPSILON * self.size * self.lipschitz
+    /// How much of a difference between two values of the field up to `t` may be rounding: coordinates are rounded to
+    /// `(size + t) 2^-53`, and a tree of a few dozen operations adds about as many roundings.
+    pub fn noise(&self, t: f64) -> f64 {
+        64.0 * f64::EPSILON * (self.size + t) * self.lipschitz
+    }
+
+    /// How far a ray is followed through a shape without end, given the field where it starts: 2^30 times the size of
+    /// what is known of it. Infinite for a shape with an end.
+    pub fn far(&self, value: f64) -> f64 {
+        if !self.is_endless {
+            return f64::INFINITY;
+        }
+        let size = self
+            .size
+            .max(value.abs() / self.lipschitz)
+            .max(self.footprint.at_origin);
+        size * (1u64 << 30) as f64
+    }
+
+    /// What is said of a ray that was followed that far: a miss if the field has grown with the distance, so that the
+    /// ray leaves everything behind; else unknown.
+    pub fn verdict_at_far(&self, t: f64, free: f64) -> Verdict {
+        if free * (1u64 << 20) as f64 >= t {
+            Verdict::Miss
+        } else {
+            Verdict::Unknown
+        }
     }
 }
 

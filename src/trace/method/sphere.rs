@@ -13,6 +13,8 @@ pub struct SphereTracing {
     steps: u32,
     /// Whether the ray has left the surface that it may have started on.
     has_departed: bool,
+    /// Beyond this, a ray through a shape without end is given up.
+    far: f64,
 }
 
 impl SphereTracing {
@@ -35,6 +37,7 @@ impl Walk for SphereTracing {
             t: segment.start,
             steps: 0,
             has_departed: segment.start > 0.0,
+            far: f64::INFINITY,
         }
     }
 
@@ -44,10 +47,16 @@ impl Walk for SphereTracing {
 
     fn observe(&mut self, value: f64, _: f64) -> Option<Ending> {
         self.steps += 1;
+        if self.steps == 1 {
+            self.far = self.segment.far(value);
+        }
         if value.is_nan() {
             return self.end(Verdict::Unknown, f64::INFINITY);
         }
-        let epsilon = self.segment.epsilon(self.t).max(self.segment.noise());
+        let epsilon = self
+            .segment
+            .epsilon(self.t)
+            .max(self.segment.noise(self.t) / self.segment.lipschitz);
         let distance = value.abs() / self.segment.lipschitz;
         let is_near = distance < epsilon;
         if is_near && self.has_departed {
@@ -55,6 +64,10 @@ impl Walk for SphereTracing {
         }
         // A ray that starts on a surface first gets away from it.
         self.has_departed |= !is_near;
+        if self.t > self.far {
+            let verdict = self.segment.verdict_at_far(self.t, distance);
+            return self.end(verdict, f64::INFINITY);
+        }
         if self.steps >= self.segment.max_steps {
             return self.end(Verdict::Unknown, f64::INFINITY);
         }

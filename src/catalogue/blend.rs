@@ -52,7 +52,8 @@ entry! {
 impl Blend for Smooth {
     #[inline(always)]
     fn union<N: Number>(&self, a: N, b: N) -> N {
-        let overlap = (N::splat(self.k) - (a - b).abs()).max(N::splat(0.0));
+        // b - a and not a - b: at a tie min has the slope of a, and so both slopes become 1/2.
+        let overlap = (N::splat(self.k) - (b - a).abs()).max(N::splat(0.0));
         a.min(b) - overlap.square() * N::splat(0.25 / self.k)
     }
 

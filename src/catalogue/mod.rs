@@ -29,13 +29,17 @@ pub use modifiers::{
     Extrude, Mirror, Offset, Repeat, Revolve, Rotate, Scale, Shell, Translate, Twist,
 };
 pub use primitive::Primitive;
-pub use profiles::{Circle, Polygon, Rectangle};
-pub use solids::{Capsule, Cone, Cuboid, Cylinder, Ellipsoid, Plane, Sphere, Torus, Triangle};
+pub use profiles::{Circle, Polygon, Rectangle, Ring, Segment};
+pub use solids::{
+    BoxFrame, CappedCone, Capsule, Cone, Cuboid, Cylinder, Ellipsoid, Link, Plane, Slab, Sphere,
+    Torus, Triangle,
+};
 
 declaration::list!($
     /// Any primitive of the catalogue.
-    AnyPrimitive, with_primitive: Sphere, Ellipsoid, Cuboid, Plane, Triangle, Cylinder, Cone, Capsule, Torus,
-    Circle, Rectangle, Polygon
+    AnyPrimitive, with_primitive: Sphere, Ellipsoid, Cuboid, Plane, Triangle, Cylinder, Cone, Capsule, Torus, BoxFrame,
+    Slab, CappedCone, Link,
+    Circle, Rectangle, Polygon, Ring, Segment
 );
 
 declaration::list!($

@@ -183,9 +183,18 @@ impl Modifier for Repeat {
     }
 
     fn sublevel(&self, level: f64, child: &dyn Fn(f64) -> Bounds) -> Bounds {
-        // The guard can be as low as the distance to the boxes of copies.
-        let reach = if self.is_guarded() { level } else { 0.0 };
-        self.extended(child(level).hull(self.child.inflate(reach)))
+        let copies = child(level);
+        if !self.is_guarded() {
+            return self.extended(copies);
+        }
+        // The guard can be as low as the distance to the boxes of copies, and to the places where copies stand, whether
+        // or not their boxes are there.
+        let mut reach = self.child;
+        for axis in (0..3).filter(|axis| self.axes[*axis].is_some()) {
+            reach.low[axis] = reach.low[axis].min(0.0);
+            reach.high[axis] = reach.high[axis].max(0.0);
+        }
+        self.extended(copies.hull(reach.inflate(level)))
     }
 
     fn domain(&self, region: Bounds) -> Bounds {

@@ -27,9 +27,19 @@ fn area(points: &[[f64; 2]]) -> f64 {
         .sum()
 }
 
+/// The corners without those that repeat the one before, also across the end of the list.
+fn distinct(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut points = points.to_vec();
+    points.dedup();
+    while points.len() > 1 && points.first() == points.last() {
+        points.pop();
+    }
+    points
+}
+
 /// The edges in counter-clockwise order.
 fn outline(points: &[[f64; 2]]) -> Vec<Edge> {
-    let mut points = points.to_vec();
+    let mut points = distinct(points);
     if area(&points) < 0.0 {
         points.reverse();
     }
@@ -75,10 +85,11 @@ impl Primitive for Polygon {
     }
 
     fn check(&self) -> Result<(), (&'static str, String)> {
-        if self.points.len() < 3 {
+        let corners = distinct(&self.points).len();
+        if corners < 3 {
             return Err((
                 "points",
-                format!("must be three or more, but there are {}", self.points.len()),
+                format!("must be three or more that differ, but there are {corners}"),
             ));
         }
         if area(&self.points) == 0.0 {

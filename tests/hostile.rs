@@ -362,7 +362,8 @@ fn many_names_load_in_time() {
     let shapes: String = (0..100)
         .map(|i| format!("let _a{i} = for i in 0..1000 {{ sphere(1) }}\n"))
         .collect();
-    let filler = format!("// {}\n", "x".repeat(2 << 20)).replace("xxxxxxxx", "xxxxxxx\n//");
+    let filler =
+        format!("// {}\n", "x".repeat(MAX_SCRIPT_BYTES / 2)).replace("xxxxxxxx", "xxxxxxx\n//");
     let start = Clock::start();
     let result = lang::load_text("names.sdf", &format!("{filler}{shapes}"), &[], &Marcher);
     let took = start.elapsed();

@@ -43,7 +43,7 @@ pub fn read<const N: usize>(path: &Path) -> Result<Vec<Row<N>>, Failure> {
     rows(input, &name)
 }
 
-/// The rows of CSV text. A first row without any number is a header; empty lines and lines that start with `#` are
+/// The rows of CSV text. A first row of as many fields, none of which starts like a number, is a header; empty lines and lines that start with `#` are
 /// passed over.
 fn rows<const N: usize>(input: impl Read, name: &str) -> Result<Vec<Row<N>>, Failure> {
     let mut reader = csv::ReaderBuilder::new()
@@ -56,7 +56,9 @@ fn rows<const N: usize>(input: impl Read, name: &str) -> Result<Vec<Row<N>>, Fai
     for (index, record) in reader.records().enumerate() {
         let record = record.map_err(|error| unreadable(name, error))?;
         let line = record.position().map_or(0, csv::Position::line);
-        let is_header = index == 0 && record.iter().all(|field| field.parse::<f64>().is_err());
+        let is_word =
+            |field: &str| !field.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+        let is_header = index == 0 && record.len() == N && record.iter().all(is_word);
         if !is_header {
             let values = values(&record)
                 .map_err(|message| Failure::Other(format!("{name}, line {line}{message}")))?;

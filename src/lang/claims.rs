@@ -15,6 +15,9 @@ const MOST_REGIONS: usize = 16;
 /// The regions on which each claiming field is evaluated, by its address.
 type Regions = HashMap<*const FieldShape, Vec<Bounds>>;
 
+/// How many steps the samples of one claim on one region count for.
+const STEPS_A_REGION: u64 = 4096;
+
 impl Machine<'_> {
     /// Reports every claim that a point refutes: over the bounds of what shows the field, or, where nothing shows it,
     /// within ten units of the origin.
@@ -28,8 +31,13 @@ impl Machine<'_> {
                 continue;
             };
             let shown = regions.get(&Arc::as_ptr(&field)).cloned();
-            let steepest = shown
-                .unwrap_or_else(|| vec![Bounds::EVERYWHERE])
+            let regions = shown.unwrap_or_else(|| vec![Bounds::EVERYWHERE]);
+            let at = self.routine(id).claim.as_ref().map(|claim| claim.span);
+            let cost = STEPS_A_REGION * regions.len() as u64;
+            if at.is_some_and(|at| self.tick(cost, at).is_err()) {
+                return;
+            }
+            let steepest = regions
                 .into_iter()
                 .filter_map(|region| refute(&field.graph, claimed, region))
                 .max_by(|a, b| a.slope.total_cmp(&b.slope));

@@ -2,10 +2,10 @@
 //! it; `docs/language.md` lists them all.
 
 /// How many bytes a script and everything that it imports may have together.
-pub const MAX_SCRIPT_BYTES: usize = 4 << 20;
+pub const MAX_SCRIPT_BYTES: usize = 2 << 20;
 
 /// How many bytes one statement may have.
-pub const MAX_STATEMENT_BYTES: usize = 1 << 20;
+pub const MAX_STATEMENT_BYTES: usize = 1 << 19;
 
 /// How deep brackets, block comments, and runs of prefix operators or powers may be nested.
 pub const MAX_NESTING: usize = 256;

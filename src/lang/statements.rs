@@ -170,11 +170,23 @@ impl<'a> Machine<'a> {
             }
             if !node.lipschitz().is_finite() {
                 let message = "this shape has no finite Lipschitz constant, so it cannot be traced";
-                let error = Diagnostic::error(value.span, message)
-                    .label("its slope has no bound on all of space");
-                return self.fail(error.help(
-                    "bound it: `shape & box(10)`, or another solid that holds what you want to see",
-                ));
+                let (label, help) = if node.bounds().is_finite() {
+                    (
+                        "its slope has no bound that could be derived, not even inside of its bounds",
+                        "a jump (`floor`, `if`), a pole (`1 / x`) or a root at 0 may be the cause: remove it, or claim a \
+                         constant, as in `field f(p) lipschitz 2 { ... }`",
+                    )
+                } else {
+                    (
+                        "its slope has no bound on all of space",
+                        "bound it: `shape & box(10)`, or another solid that holds what you want to see",
+                    )
+                };
+                return self.fail(
+                    Diagnostic::error(value.span, message)
+                        .label(label)
+                        .help(help),
+                );
             }
             if node.place().is_none() {
                 *node = node.labelled(None, Some(place.clone()));

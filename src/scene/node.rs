@@ -190,6 +190,7 @@ impl Node {
             ));
         }
         let size = 1 + match &shape {
+            Shape::Primitive(AnyPrimitive::Polygon(polygon)) => polygon.points.len() as u64,
             Shape::Primitive(_) => 0,
             Shape::Field(field) => field.graph.work(),
             Shape::Combination(_, children) => children.iter().map(|n| n.size).sum(),

@@ -8,7 +8,6 @@ use super::script::{Script, compile};
 use super::stats::{self, Stages, timed};
 use super::tracing::Tracing;
 use super::value;
-use crate::lang::Loaded;
 use crate::output::{self, Metadata, Saved};
 use crate::render::{self, Channel, RenderOptions, Rendered};
 use crate::scene::{Scene, Settings};
@@ -89,12 +88,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let world = world?;
     stages.compile = milliseconds;
     let rendered = rendered(arguments, &loaded.scene, &world)?;
-    let metadata = metadata(arguments, &loaded);
+    // The script by its name alone, so that no folder of this machine gets out.
+    let name = script_name(arguments);
+    let metadata = Metadata::new(&name, &loaded.parameters, &loaded.scene.settings);
     let (saved, milliseconds) = timed(|| output::save(&rendered.film, &path, &metadata));
     let saved = saved.map_err(|error| Failure::writing(&quoted(&error.path), &error.source))?;
     stages.write = milliseconds;
     if let Some(path) = &arguments.stats {
-        let name = script_name(arguments);
         stats::to_json(&rendered.statistics, &stages, &name, &loaded.parameters)
             .map_err(io::Error::other)
             .and_then(|text| output::write(path, text.as_bytes()))
@@ -221,33 +221,6 @@ fn script_name(arguments: &Arguments) -> String {
         .into_owned()
 }
 
-/// What the picture says about itself: the script by its name alone, so that no folder of this machine gets out.
-fn metadata(arguments: &Arguments, loaded: &Loaded) -> Metadata {
-    let parameters: Vec<String> = loaded
-        .parameters
-        .iter()
-        .map(|(name, value)| format!("{name}={value}"))
-        .collect();
-    Metadata {
-        source: script_name(arguments),
-        parameters: parameters.join(" "),
-        settings: settings_in_words(&loaded.scene.settings),
-    }
-}
-
-fn settings_in_words(s: &Settings) -> String {
-    let [width, height] = s.size;
-    format!(
-        "size={width}x{height} samples={} depth={} tolerance={} max_steps={} method={} seed={}",
-        s.samples,
-        s.depth,
-        s.tolerance,
-        s.max_steps,
-        s.method.name(),
-        s.seed
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -270,13 +243,5 @@ mod tests {
             "cannot write `no/such/folder/a.png`: the folder `no/such/folder`: there is no such file or folder"
         );
         assert!(has_place(Path::new("a.png")).is_ok());
-    }
-
-    #[test]
-    fn settings_are_told_in_the_words_of_the_options() {
-        assert_eq!(
-            settings_in_words(&Settings::default()),
-            "size=640x360 samples=1 depth=8 tolerance=0.1 max_steps=1024 method=auto seed=0"
-        );
     }
 }

@@ -1,5 +1,6 @@
 //! PNG with the story of the picture in its text.
 
+use crate::scene::Settings;
 use image::RgbImage;
 use png::{BitDepth, ColorType, Encoder, EncodingError, SrgbRenderingIntent};
 
@@ -15,6 +16,20 @@ pub struct Metadata {
 }
 
 impl Metadata {
+    /// What a picture of the script `source` says, rendered with these values of its parameters and these settings; the
+    /// settings in the words of the command's options.
+    pub fn new(source: &str, parameters: &[(String, String)], settings: &Settings) -> Self {
+        let parameters: Vec<String> = parameters
+            .iter()
+            .map(|(name, value)| format!("{name}={value}"))
+            .collect();
+        Self {
+            source: source.into(),
+            parameters: parameters.join(" "),
+            settings: in_words(settings),
+        }
+    }
+
     /// Keywords and texts; empty ones are left out.
     fn entries(&self) -> impl Iterator<Item = (&'static str, &str)> {
         let software = concat!("fieldstone ", env!("CARGO_PKG_VERSION"));
@@ -27,6 +42,19 @@ impl Metadata {
         .into_iter()
         .filter(|(_, text)| !text.is_empty())
     }
+}
+
+fn in_words(s: &Settings) -> String {
+    let [width, height] = s.size;
+    format!(
+        "size={width}x{height} samples={} depth={} tolerance={} max_steps={} method={} seed={}",
+        s.samples,
+        s.depth,
+        s.tolerance,
+        s.max_steps,
+        s.method.name(),
+        s.seed
+    )
 }
 
 /// The bytes of a PNG of `image`, whose samples are sRGB.
@@ -103,6 +131,17 @@ mod tests {
     fn equal_pictures_give_equal_bytes() {
         let bytes = || encode(&gradient(), &metadata()).unwrap();
         assert_eq!(bytes(), bytes());
+    }
+
+    #[test]
+    fn settings_are_told_in_the_words_of_the_options() {
+        let parameters = [("n".into(), "7".into()), ("gap".into(), "0.2".into())];
+        let metadata = Metadata::new("ring.sdf", &parameters, &Settings::default());
+        assert_eq!(metadata.parameters, "n=7 gap=0.2");
+        assert_eq!(
+            metadata.settings,
+            "size=640x360 samples=1 depth=8 tolerance=0.1 max_steps=1024 method=auto seed=0"
+        );
     }
 
     #[test]

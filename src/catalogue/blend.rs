@@ -13,9 +13,6 @@ pub trait Blend: super::Declared {
 
     /// How far the union of `n` fields, folded from first to last, can lie below the smallest of them.
     fn depth(&self, n: usize) -> f64;
-
-    /// Whether the blend is the minimum itself.
-    const IS_HARD: bool = false;
 }
 
 entry! {
@@ -26,8 +23,6 @@ entry! {
 }
 
 impl Blend for Hard {
-    const IS_HARD: bool = true;
-
     #[inline(always)]
     fn union<N: Number>(&self, a: N, b: N) -> N {
         a.min(b)

@@ -57,7 +57,7 @@ functions! {
     /// The nearest whole number, halves upwards.
     Round = "round" (x) (x + N::splat(0.5)).floor();
     /// What is left of x above its floor.
-    Fract = "fract" (x) x - x.floor();
+    Fract = "fract" (x) x.fract();
     /// -1, 0 or 1 as x is negative, zero or positive.
     Sign = "sign" (x) {
         let zero = N::splat(0.0);
@@ -70,11 +70,11 @@ functions! {
     /// The cosine of an angle.
     Cos = "cos" (x) x.cos();
     /// The tangent of an angle.
-    Tan = "tan" (x) x.sin() / x.cos();
+    Tan = "tan" (x) x.tan();
     /// The angle whose sine is x.
-    Asin = "asin" (x) x.atan2((N::splat(1.0) - x.square()).sqrt());
+    Asin = "asin" (x) x.asin();
     /// The angle whose cosine is x.
-    Acos = "acos" (x) (N::splat(1.0) - x.square()).sqrt().atan2(x);
+    Acos = "acos" (x) x.acos();
     /// The angle whose tangent is x.
     Atan = "atan" (x) x.atan2(N::splat(1.0));
     /// The angle of the point (x, y) from the x axis.

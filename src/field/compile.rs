@@ -58,13 +58,7 @@ macro_rules! builders {
             /// The closure of a node: transforms that keep angles are folded into one.
             $(#[$feature])*
             pub(super) fn build<N: Number, const GRAPHS: bool>(node: &Node) -> Closure<N> {
-                let mut map = Similarity::IDENTITY;
-                let mut inner = node;
-                while let Shape::Modifier(modifier, child) = inner.shape() {
-                    let Some(step) = with_modifier!(modifier, m => m.similarity()) else { break };
-                    map = map.then(&step);
-                    inner = child;
-                }
+                let (map, inner) = node.unplaced();
                 if let Shape::Primitive(primitive) = inner.shape() {
                     return with_primitive!(primitive, p => leaf(p.clone(), map));
                 }

@@ -25,24 +25,15 @@ pub struct View {
 impl View {
     /// The view of `camera` on a picture of `size` (width and height in pixels).
     pub fn new(camera: &Camera, size: [u32; 2]) -> Self {
-        let (is_parallel, half_height) = match camera.projection {
-            Projection::Perspective { fov } => (false, libm::tan(fov / 2.0)),
-            Projection::Orthographic { height } => (true, height / 2.0),
-        };
-        // A picture of one column or row is as wide or high as one of two.
-        let [columns, rows] = size.map(|n| f64::from(n.max(2) - 1));
-        let [s, t] = camera
-            .screen
-            .unwrap_or([half_height * columns / rows, half_height]);
         let [right, up, forward] = axes(camera);
         Self {
             eye: camera.eye,
             right,
             up,
             forward,
-            is_parallel,
+            is_parallel: matches!(camera.projection, Projection::Orthographic { .. }),
             middle: size.map(|n| (f64::from(n) - 1.0) / 2.0),
-            pixel: [2.0 * s / columns, 2.0 * t / rows],
+            pixel: camera.pixel(size),
         }
     }
 

@@ -32,6 +32,23 @@ pub struct Camera {
     pub screen: Option<[f64; 2]>,
 }
 
+impl Camera {
+    /// The width and height of a pixel on the screen, for a picture of `size` (width and height in pixels): in units of
+    /// the distance to the screen for a perspective, in scene units otherwise. A picture of one column or row is as wide
+    /// or high as one of two.
+    pub fn pixel(&self, size: [u32; 2]) -> [f64; 2] {
+        let half_height = match self.projection {
+            Projection::Perspective { fov } => libm::tan(fov / 2.0),
+            Projection::Orthographic { height } => height / 2.0,
+        };
+        let [columns, rows] = size.map(|n| f64::from(n.max(2) - 1));
+        let [s, t] = self
+            .screen
+            .unwrap_or([half_height * columns / rows, half_height]);
+        [2.0 * s / columns, 2.0 * t / rows]
+    }
+}
+
 impl Default for Camera {
     fn default() -> Self {
         Self {

@@ -3,8 +3,8 @@
 use super::derive::lipschitz_of_graph;
 use super::{Fault, Graph, Material};
 use crate::catalogue::{
-    AnyModifier, AnyPrimitive, Bounds, Class, Combination, Modifier, Operation, Primitive, Traits,
-    with_blend, with_modifier, with_primitive,
+    AnyModifier, AnyPrimitive, Bounds, Class, Combination, Modifier, Operation, Primitive,
+    Similarity, Traits, with_blend, with_modifier, with_primitive,
 };
 use crate::num::{Number, Vec3};
 use std::sync::Arc;
@@ -333,6 +333,19 @@ impl Node {
             Shape::Combination(_, children) => children,
             Shape::Modifier(_, child) => std::slice::from_ref(child),
         }
+    }
+
+    /// The first node below all transforms that keep angles, and what they do together.
+    pub fn unplaced(&self) -> (Similarity, &Self) {
+        let (mut map, mut inner) = (Similarity::IDENTITY, self);
+        while let Shape::Modifier(modifier, child) = &inner.shape {
+            let Some(step) = with_modifier!(modifier, m => m.similarity()) else {
+                break;
+            };
+            map = map.then(&step);
+            inner = child;
+        }
+        (map, inner)
     }
 
     /// A box that holds every point where the field is at most `level >= 0`.

@@ -6,13 +6,11 @@ use crate::scene::{Material, Node};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The pieces of a scene, with those of the same transparent material that overlap united; each with its item. A body
-/// stands where its first piece stood.
-pub(super) fn joined(pieces: Vec<(u32, Arc<Node>)>) -> Vec<(u32, Arc<Node>)> {
-    let transparent: Vec<Option<Arc<Material>>> = pieces
-        .iter()
-        .map(|(_, node)| clear_material(node))
-        .collect();
+/// The pieces of a scene, with those of the same transparent material that overlap united. A body stands
+/// where its first piece stood.
+pub(super) fn joined(pieces: Vec<Arc<Node>>) -> Vec<Arc<Node>> {
+    let transparent: Vec<Option<Arc<Material>>> =
+        pieces.iter().map(|node| clear_material(node)).collect();
     if transparent.iter().all(Option::is_none) {
         return pieces;
     }
@@ -28,21 +26,21 @@ pub(super) fn joined(pieces: Vec<(u32, Arc<Node>)>) -> Vec<(u32, Arc<Node>)> {
 }
 
 /// The body of these pieces; the pieces themselves where it cannot be made.
-fn united(pieces: &[(u32, Arc<Node>)], members: &[usize]) -> Vec<(u32, Arc<Node>)> {
+fn united(pieces: &[Arc<Node>], members: &[usize]) -> Vec<Arc<Node>> {
     let union = Combination {
         operation: Operation::Union,
         blend: AnyBlend::HARD,
     };
-    let nodes = members.iter().map(|i| pieces[*i].1.clone()).collect();
+    let nodes = members.iter().map(|i| pieces[*i].clone()).collect();
     match Node::combination(union, nodes) {
-        Ok(body) => vec![(pieces[members[0]].0, body)],
+        Ok(body) => vec![body],
         Err(_) => members.iter().map(|i| pieces[*i].clone()).collect(),
     }
 }
 
 /// For each piece the first piece of its body, found by a sweep along x.
-fn leaders(pieces: &[(u32, Arc<Node>)], transparent: &[Option<Arc<Material>>]) -> Vec<usize> {
-    let bounds = |i: usize| pieces[i].1.bounds();
+fn leaders(pieces: &[Arc<Node>], transparent: &[Option<Arc<Material>>]) -> Vec<usize> {
+    let bounds = |i: usize| pieces[i].bounds();
     let mut order: Vec<usize> = (0..pieces.len())
         .filter(|i| transparent[*i].is_some())
         .collect();
@@ -80,9 +78,7 @@ fn root(leader: &[usize], mut i: usize) -> usize {
 
 /// The material of a shape that has only one and lets light through.
 fn clear_material(node: &Node) -> Option<Arc<Material>> {
-    let mut found = Vec::new();
-    materials(node, None, &mut found);
-    match &found[..] {
+    match &materials(node)[..] {
         [Some(material)] if !material.refract.is_zero() && !node.traits().is_sheet => {
             Some(material.clone())
         }

@@ -68,14 +68,7 @@ pub(super) fn march<W: Walk>(part: &Marched, rays: &[Ray], jobs: &[Job]) -> Vec<
     let mut waiting = jobs.iter();
     let mut seats: Vec<Seat<W>> = waiting.by_ref().take(WIDTH).map(Seat::new).collect();
     while seats.len() >= FEW {
-        step_packet(
-            part,
-            rays,
-            &mut seats,
-            |seat, value, slope| seat.observe(value, slope),
-            &mut done,
-            &mut waiting,
-        );
+        step_packet(part, rays, &mut seats, &mut done, &mut waiting);
     }
     for mut seat in seats {
         done.push(finish_single(part, rays, &mut seat));
@@ -88,7 +81,6 @@ fn step_packet<'a, W: Walk>(
     part: &Marched,
     rays: &[Ray],
     seats: &mut Vec<Seat<W>>,
-    observe: impl Fn(&mut Seat<W>, f64, f64) -> Option<Walked>,
     done: &mut Vec<Walked>,
     waiting: &mut impl Iterator<Item = &'a Job>,
 ) {
@@ -96,7 +88,7 @@ fn step_packet<'a, W: Walk>(
     let mut lane = 0;
     let mut kept = 0;
     while lane < values.len() && kept < seats.len() {
-        match observe(&mut seats[kept], values[lane], slopes[lane]) {
+        match seats[kept].observe(values[lane], slopes[lane]) {
             None => kept += 1,
             Some(walked) => {
                 done.push(walked);
@@ -120,7 +112,7 @@ fn evaluate<W: Walk>(
     rays: &[Ray],
     seats: &[Seat<W>],
 ) -> ([f64; WIDTH], [f64; WIDTH]) {
-    let mut origin_and_place = [[0.0; WIDTH]; 3];
+    let mut places = [[0.0; WIDTH]; 3];
     let mut directions = [[0.0; WIDTH]; 3];
     for lane in 0..WIDTH {
         // Lanes without a walk repeat the first.
@@ -128,11 +120,11 @@ fn evaluate<W: Walk>(
         let ray = &rays[seat.ray as usize];
         let p = ray.at(seat.walk.t());
         for axis in 0..3 {
-            origin_and_place[axis][lane] = p[axis];
+            places[axis][lane] = p[axis];
             directions[axis][lane] = ray.direction[axis];
         }
     }
-    let [x, y, z] = origin_and_place.map(Lanes);
+    let [x, y, z] = places.map(Lanes);
     match &part.slope {
         Some(slope) if W::NEEDS_SLOPE => {
             let [u, v, w] = directions.map(Lanes);

@@ -18,5 +18,5 @@ mod world;
 pub use outcome::{Occlusion, Outcome, Verdict};
 pub use part::PartKind;
 pub use ray::{Footprint, Ray};
-pub use scene_tracer::{SceneTracer, camera_spread};
+pub use scene_tracer::SceneTracer;
 pub use world::{Paint, Visibility, World};

@@ -2,7 +2,7 @@
 
 use super::analytic::{Ball, Facet, HalfSpace};
 use crate::catalogue::Modifier;
-use crate::catalogue::{AnyPrimitive, Bounds, Combination, Operation, Similarity, with_modifier};
+use crate::catalogue::{AnyPrimitive, Bounds, Combination, Operation, with_modifier};
 use crate::field::{Closure, Level, compile, compile_convex, compile_wide};
 use crate::num::{Dual, F64x32};
 use crate::scene::{Fault, Material, Node, Shadow, Shape};
@@ -66,12 +66,10 @@ pub struct Part {
     pub kind: PartKind,
     /// Its shape, for materials.
     pub node: Arc<Node>,
-    /// The material of all of it, where there is only one; none inside for the default.
-    pub uniform: Option<Option<Arc<Material>>>,
+    /// Its different materials; none stands for the default.
+    pub materials: Vec<Option<Arc<Material>>>,
     /// What it does to light behind it.
     pub shadow: Shadow,
-    /// The item of the scene that it belongs to, by number.
-    pub item: u32,
     /// A box around it.
     pub bounds: Bounds,
 }
@@ -81,7 +79,7 @@ impl Part {
     ///
     /// # Errors
     /// If the shape has no finite Lipschitz constant.
-    pub fn new(node: Arc<Node>, item: u32, is_auto: bool, level: Level) -> Result<Self, Fault> {
+    pub fn new(node: Arc<Node>, is_auto: bool, level: Level) -> Result<Self, Fault> {
         let analytic = if is_auto { entry(&node) } else { None };
         let kind = match analytic {
             Some(kind) => kind,
@@ -93,13 +91,8 @@ impl Part {
             PartKind::Facet(facet) => facet.bounds(),
             PartKind::Marched(marched) => marched.region,
         };
-        let mut found = Vec::new();
-        materials(&node, None, &mut found);
-        let uniform = if found.len() == 1 { found.pop() } else { None };
-        let shadows: Vec<Shadow> = match &uniform {
-            Some(material) => vec![shadow_of(material)],
-            None => found.iter().map(shadow_of).collect(),
-        };
+        let materials = materials(&node);
+        let shadows: Vec<Shadow> = materials.iter().map(shadow_of).collect();
         let shadow = [Shadow::Opaque, Shadow::Tinted]
             .into_iter()
             .find(|s| shadows.contains(s))
@@ -107,9 +100,8 @@ impl Part {
         Ok(Self {
             kind,
             node,
-            uniform,
+            materials,
             shadow,
-            item,
             bounds,
         })
     }
@@ -204,12 +196,7 @@ pub fn flatten(node: &Arc<Node>) -> Vec<Arc<Node>> {
 
 /// The closed form of a shape that is a sphere, plane or triangle under transforms that keep angles.
 fn entry(node: &Node) -> Option<PartKind> {
-    let mut map = Similarity::IDENTITY;
-    let mut inner = node;
-    while let Shape::Modifier(modifier, child) = inner.shape() {
-        map = map.then(&with_modifier!(modifier, m => m.similarity())?);
-        inner = child;
-    }
+    let (map, inner) = node.unplaced();
     let Shape::Primitive(primitive) = inner.shape() else {
         return None;
     };
@@ -236,12 +223,15 @@ fn entry(node: &Node) -> Option<PartKind> {
     }
 }
 
-/// Collects the different materials of a shape; `None` stands for unpainted.
-pub fn materials(
-    node: &Node,
-    outer: Option<&Arc<Material>>,
-    found: &mut Vec<Option<Arc<Material>>>,
-) {
+/// The different materials of a shape; `None` stands for unpainted.
+pub fn materials(node: &Node) -> Vec<Option<Arc<Material>>> {
+    let mut found = Vec::new();
+    collect(node, None, &mut found);
+    found
+}
+
+/// Adds the materials of a shape, where `outer` is what holds if nothing is painted deeper down.
+fn collect(node: &Node, outer: Option<&Arc<Material>>, found: &mut Vec<Option<Arc<Material>>>) {
     let here = node.paint().or(outer);
     // Children of a user's field lend their shape, not their paint.
     let children = match node.shape() {
@@ -258,5 +248,5 @@ pub fn materials(
             found.push(here.cloned());
         }
     }
-    children.iter().for_each(|c| materials(c, here, found));
+    children.iter().for_each(|c| collect(c, here, found));
 }

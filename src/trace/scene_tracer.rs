@@ -1,19 +1,9 @@
 //! Single rays for scripts and for the command `trace`.
 
 use super::{Footprint, Outcome, Ray, Visibility, World};
-use crate::scene::{Camera, Node, Projection, Settings, TraceRecord, Tracer};
+use crate::scene::{Camera, Node, Settings, TraceRecord, Tracer};
 use glam::DVec3;
 use std::sync::{Arc, Mutex};
-
-/// The angle of a pixel of the camera: its width at distance 1, in scene units.
-pub fn camera_spread(camera: &Camera, settings: &Settings) -> f64 {
-    let rows = f64::from(settings.size[1].max(2) - 1);
-    match (camera.screen, camera.projection) {
-        (Some([_, t]), _) => 2.0 * t / rows,
-        (None, Projection::Perspective { fov }) => 2.0 * libm::tan(0.5 * fov) / rows,
-        (None, Projection::Orthographic { .. }) => 0.0,
-    }
-}
 
 /// Traces the rays of scripts: with the footprint of a pixel of the default camera.
 #[derive(Default)]
@@ -64,7 +54,7 @@ fn script_ray(settings: &Settings, origin: [f64; 3], direction: [f64; 3]) -> Ray
         t_max: f64::INFINITY,
         footprint: Footprint {
             at_origin: 0.0,
-            spread: camera_spread(&Camera::default(), settings),
+            spread: Camera::default().pixel(settings.size)[1],
         },
     }
 }

@@ -6,7 +6,6 @@ use super::march::{Job, Walked, march};
 use super::method::{Certified, Convex, Ending, Segment, SphereTracing};
 use super::part::{Marched, Part, PartKind, flatten};
 use super::{Occlusion, Outcome, Ray, Verdict};
-use crate::catalogue::Bounds;
 use crate::field::{Level, normal, shares};
 use crate::scene::{Fault, Material, Method, Node, Scene, Settings, Shadow};
 use glam::DVec3;
@@ -99,13 +98,9 @@ impl World {
     pub fn of(shown: &[Arc<Node>], settings: &Settings) -> Result<Self, Fault> {
         let level = Level::best();
         let is_auto = settings.method == Method::Auto;
-        let mut pieces: Vec<(u32, Arc<Node>)> = Vec::new();
-        for (item, node) in shown.iter().enumerate() {
-            pieces.extend(flatten(node).into_iter().map(|piece| (item as u32, piece)));
-        }
-        let parts = joined(pieces)
+        let parts = joined(shown.iter().flat_map(flatten).collect())
             .into_iter()
-            .map(|(item, node)| Part::new(node, item, is_auto, level))
+            .map(|node| Part::new(node, is_auto, level))
             .collect::<Result<Vec<_>, _>>()?;
         Ok(Self::of_parts(parts, *settings))
     }
@@ -125,16 +120,10 @@ impl World {
         let reach = boxes.iter().map(|(_, b)| b.radius()).fold(0.0, f64::max);
         let default = Arc::new(Material::default());
         let mut materials: Vec<Arc<Material>> = Vec::new();
-        for part in &parts {
-            let mut found = Vec::new();
-            super::part::materials(&part.node, None, &mut found);
-            for material in found
-                .into_iter()
-                .map(|m| m.unwrap_or_else(|| default.clone()))
-            {
-                if !materials.iter().any(|m| Arc::ptr_eq(m, &material)) {
-                    materials.push(material);
-                }
+        for material in parts.iter().flat_map(|part| &part.materials) {
+            let material = material.as_ref().unwrap_or(&default);
+            if !materials.iter().any(|m| Arc::ptr_eq(m, material)) {
+                materials.push(material.clone());
             }
         }
         Self {
@@ -179,7 +168,7 @@ impl World {
     /// The materials at a point of the surface of `part`, one or more.
     pub fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>> {
         let part = &self.parts[part as usize];
-        if let Some(only) = &part.uniform {
+        if let [only] = &part.materials[..] {
             let material = only.as_ref().unwrap_or(&self.default);
             if !material.has_patterns() {
                 return vec![Paint {
@@ -212,11 +201,6 @@ impl World {
     /// How rays find each part, in words.
     pub fn paths(&self) -> impl Iterator<Item = (&'static str, &Arc<Node>)> {
         self.parts.iter().map(|part| (part.kind.word(), &part.node))
-    }
-
-    /// The item of the scene that a part belongs to.
-    pub fn item(&self, part: u32) -> u32 {
-        self.parts[part as usize].item
     }
 
     /// Asks all parts, the closed forms first, then marches what is left part by part, nearest first. With `any`, a ray
@@ -407,14 +391,5 @@ impl World {
                 normal(&marched.gradient, point, ray.direction, back)
             }
         }
-    }
-
-    /// The box around everything that has an end.
-    pub fn bounds(&self) -> Bounds {
-        self.parts
-            .iter()
-            .map(|p| p.bounds)
-            .filter(Bounds::is_finite)
-            .fold(Bounds::EMPTY, Bounds::hull)
     }
 }

@@ -18,6 +18,11 @@ pub trait Modifier: Declared {
     /// none.
     fn lipschitz(&self, child: f64, region: Bounds) -> f64;
 
+    /// Whether the constant depends on the region: there is none, or a larger one, on all of space.
+    fn is_regional(&self) -> bool {
+        false
+    }
+
     /// The Lipschitz rule in words, with its source.
     const RULE: &'static str;
 

@@ -154,8 +154,7 @@ impl Node {
         let traits = with_modifier!(&modifier, m => m.traits(&child.traits));
         let everywhere =
             with_modifier!(&modifier, m => m.lipschitz(child.everywhere, Bounds::EVERYWHERE));
-        let own = matches!(modifier, AnyModifier::Twist(_));
-        let is_regional = own || child.is_regional;
+        let is_regional = with_modifier!(&modifier, m => m.is_regional()) || child.is_regional;
         Self::certified(
             Shape::Modifier(modifier, child),
             traits,

@@ -50,6 +50,10 @@ impl Modifier for Twist {
         child * (0.5 * s + (1.0 + 0.25 * s * s).sqrt())
     }
 
+    fn is_regional(&self) -> bool {
+        self.rate != 0.0
+    }
+
     fn traits(&self, child: &Traits) -> Traits {
         if self.rate == 0.0 {
             return *child;

@@ -450,7 +450,7 @@ fn wrong_constants_are_refuted() {
     let graph = b.finish(&[f]);
     let field = Node::field(FieldShape {
         name: "steep".into(),
-        graph,
+        graph: graph.into(),
         claimed: Some(15.0),
     })
     .expect("a field");
@@ -534,7 +534,7 @@ fn constant_of_the_gyroid_is_derived() {
     let graph = gyroid(5.0);
     let field = Node::field(FieldShape {
         name: "gyroid".into(),
-        graph,
+        graph: graph.into(),
         claimed: None,
     })
     .expect("a field");

@@ -346,10 +346,45 @@ macro_rules! entry {
 }
 pub(crate) use entry;
 
-/// Lists the entries of one kind: the enum over all of them, a macro that reaches inside, and what follows from their
-/// declarations. The first token is a dollar sign, which the macro inside needs.
+/// Lists the entries of one kind: the enum over all of them, macros that reach inside, and what follows from their
+/// declarations. Entries before the semicolon are compiled for every type of number; those behind `recorded` run once
+/// with a symbol and are evaluated as graphs, which takes no time to build. The first token is a dollar sign, which the
+/// macros inside need.
 macro_rules! list {
-    ($dollar:tt $(#[doc = $doc:literal])+ $any:ident, $with:ident: $($type:ident),+ $(,)?) => {
+    (
+        $dollar:tt $(#[doc = $doc:literal])+
+        $any:ident, $with:ident, $with_compiled:ident, $with_recorded:ident:
+        $($compiled:ident),+; recorded $($recorded:ident),*
+    ) => {
+        $crate::catalogue::declaration::list! {
+            @all $dollar $(#[doc = $doc])+ $any, $with: $($compiled,)+ $($recorded,)*
+        }
+
+        /// Some value of an expression in which the entry inside is bound to a name, if it is one of those that are
+        /// compiled for every type of number.
+        macro_rules! $with_compiled {
+            ($dollar any:expr, $dollar bound:ident => $dollar body:expr) => {
+                match $dollar any {
+                    $( $dollar crate::catalogue::$any::$compiled($dollar bound) => Some($dollar body), )+
+                    #[allow(unreachable_patterns)]
+                    _ => None,
+                }
+            };
+        }
+        pub(crate) use $with_compiled;
+
+        /// Some value of an expression in which the entry inside is bound to a name, if it is a recorded one.
+        macro_rules! $with_recorded {
+            ($dollar any:expr, $dollar bound:ident => $dollar body:expr) => {
+                match $dollar any {
+                    $( $dollar crate::catalogue::$any::$recorded($dollar bound) => Some($dollar body), )*
+                    _ => None,
+                }
+            };
+        }
+        pub(crate) use $with_recorded;
+    };
+    (@all $dollar:tt $(#[doc = $doc:literal])+ $any:ident, $with:ident: $($type:ident,)+) => {
         $(#[doc = $doc])+
         #[derive(Clone, Debug, PartialEq)]
         pub enum $any {

@@ -1,7 +1,8 @@
 //! Floor 1: every primitive, combinator and modifier, declared once.
 //!
 //! To add an entry, write its declaration (`declaration::entry!`) with its mathematics in a file of its own, and its
-//! name into one of the lists below. The script's word, its error messages, the reference and the laws follow.
+//! name into one of the lists below: first those that are compiled for every type of number, then those that are
+//! recorded as graphs. The script's word, its error messages, the reference and the laws follow.
 
 mod blend;
 mod bounds;
@@ -37,17 +38,22 @@ pub use solids::{
 
 declaration::list!($
     /// Any primitive of the catalogue.
-    AnyPrimitive, with_primitive: Sphere, Ellipsoid, Cuboid, Plane, Triangle, Cylinder, Cone, Capsule, Torus, BoxFrame,
-    Slab, CappedCone, Link,
-    Circle, Rectangle, Polygon, Ring, Segment
+    AnyPrimitive, with_primitive, with_compiled_primitive, with_recorded_primitive:
+    Sphere, Ellipsoid, Cuboid, Plane, Triangle, Cylinder, Cone, Capsule, Torus, BoxFrame, Slab, CappedCone,
+    Circle, Rectangle, Polygon;
+    recorded Link, Ring, Segment
 );
 
 declaration::list!($
     /// Any modifier of the catalogue.
-    AnyModifier, with_modifier: Translate, Rotate, Scale, Mirror, Repeat, Twist, Offset, Shell, Extrude, Revolve
+    AnyModifier, with_modifier, with_compiled_modifier, with_recorded_modifier:
+    Translate, Rotate, Scale, Mirror, Repeat, Twist, Offset, Shell, Extrude, Revolve;
+    recorded
 );
 
 declaration::list!($
     /// Any blend of the catalogue.
-    AnyBlend, with_blend: Hard, Smooth
+    AnyBlend, with_blend, with_compiled_blend, with_recorded_blend:
+    Hard, Smooth;
+    recorded
 );

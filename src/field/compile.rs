@@ -23,8 +23,8 @@ pub fn compile_wide<N: Number>(node: &Node, level: Level) -> Closure<N> {
     at_level::<N, true>(node, level)
 }
 
-/// As [`compile_wide`], for a convex field: no user's field is convex, so there is none in it, and the code for graphs is
-/// not made for `N` (it would be a third of the library's build).
+/// As [`compile_wide`], for a field without graphs ([`Node::has_graph`]): the code for them is not made for `N` (it would
+/// be a third of the library's build).
 pub fn compile_convex<N: Number>(node: &Node, level: Level) -> Closure<N> {
     at_level::<N, false>(node, level)
 }
@@ -50,17 +50,19 @@ macro_rules! builders {
         mod $level {
             use super::{Closure, FEW_REGISTERS};
             use crate::catalogue::{Blend, Modifier, Operation, Primitive, Similarity};
-            use crate::catalogue::{with_blend, with_modifier, with_primitive};
+            use crate::catalogue::{with_compiled_blend, with_compiled_modifier, with_compiled_primitive};
             use crate::num::{Number, Vec3};
-            use crate::scene::{FieldShape, Node, Shape};
+            use crate::scene::{Graph, Node, Shape};
             use std::sync::Arc;
 
             /// The closure of a node: transforms that keep angles are folded into one.
             $(#[$feature])*
             pub(super) fn build<N: Number, const GRAPHS: bool>(node: &Node) -> Closure<N> {
                 let (map, inner) = node.unplaced();
-                if let Shape::Primitive(primitive) = inner.shape() {
-                    return with_primitive!(primitive, p => leaf(p.clone(), map));
+                if let Shape::Primitive(primitive) = inner.shape()
+                    && let Some(leaf) = with_compiled_primitive!(primitive, p => leaf(p.clone(), map))
+                {
+                    return leaf;
                 }
                 let child = warped::<N, GRAPHS>(inner);
                 if map == Similarity::IDENTITY { child } else { placed(child, map) }
@@ -68,22 +70,27 @@ macro_rules! builders {
 
             $(#[$feature])*
             fn warped<N: Number, const GRAPHS: bool>(node: &Node) -> Closure<N> {
-                match node.shape() {
+                if let Some(graph) = node.graph().filter(|_| GRAPHS) {
+                    return recorded(graph);
+                }
+                let compiled = match node.shape() {
                     Shape::Primitive(primitive) => {
-                        with_primitive!(primitive, p => leaf(p.clone(), Similarity::IDENTITY))
+                        with_compiled_primitive!(primitive, p => leaf(p.clone(), Similarity::IDENTITY))
                     }
-                    Shape::Field(field) if GRAPHS => graph(field),
-                    // Not a number: a walk that meets it ends as unknown.
-                    Shape::Field(_) => Box::new(|_: &Vec3<N>| N::splat(f64::NAN)),
+                    Shape::Field(_) => None,
                     Shape::Combination(combination, children) => {
                         let children = children.iter().map(|c| build::<N, GRAPHS>(c)).collect();
-                        with_blend!(&combination.blend, b => joined(combination.operation, b.clone(), children))
+                        with_compiled_blend!(&combination.blend, b => {
+                            joined(combination.operation, b.clone(), children)
+                        })
                     }
                     Shape::Modifier(modifier, child) => {
                         let child = build::<N, GRAPHS>(child);
-                        with_modifier!(modifier, m => modified(m.clone(), child))
+                        with_compiled_modifier!(modifier, m => modified(m.clone(), child))
                     }
-                }
+                };
+                // Not a number: a walk that meets it ends as unknown.
+                compiled.unwrap_or_else(|| Box::new(|_: &Vec3<N>| N::splat(f64::NAN)))
             }
 
             $(#[$feature])*
@@ -145,21 +152,21 @@ macro_rules! builders {
             }
 
             $(#[$feature])*
-            fn graph<N: Number>(field: &Arc<FieldShape>) -> Closure<N> {
-                let shapes: Vec<Closure<N>> = field.graph.shapes().iter().map(|s| build::<N, true>(s)).collect();
-                let field = field.clone();
+            fn recorded<N: Number>(graph: &Arc<Graph>) -> Closure<N> {
+                let shapes: Vec<Closure<N>> = graph.shapes().iter().map(|s| build::<N, true>(s)).collect();
+                let graph = graph.clone();
                 Box::new(move |p: &Vec3<N>| {
                     // Few registers live on the stack; one walk serves both, or the code would double.
                     let mut few = [N::splat(0.0); FEW_REGISTERS];
                     let mut many = Vec::new();
-                    let registers = if field.graph.registers() <= FEW_REGISTERS {
+                    let registers = if graph.registers() <= FEW_REGISTERS {
                         &mut few[..]
                     } else {
-                        many.resize(field.graph.registers(), N::splat(0.0));
+                        many.resize(graph.registers(), N::splat(0.0));
                         &mut many[..]
                     };
-                    field.graph.run(p, registers, &|i, q: &Vec3<N>| shapes[i](q));
-                    field.graph.output(registers, 0)
+                    graph.run(p, registers, &|i, q: &Vec3<N>| shapes[i](q));
+                    graph.output(registers, 0)
                 })
             }
         }

@@ -149,6 +149,7 @@ impl<'a> Machine<'a> {
             })
         };
         let (graph, claimed) = self.graph(at, run)?;
+        let graph = Arc::new(graph);
         let work = graph.len() as u64;
         let field = FieldShape {
             name: routine.name.text.to_string(),

@@ -10,6 +10,7 @@ mod material;
 mod node;
 mod period;
 mod settings;
+mod symbol;
 mod tracer;
 
 use std::sync::Arc;

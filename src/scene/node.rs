@@ -1,10 +1,14 @@
 //! The tree of shapes. A node cannot be made without its certificates.
 
 use super::derive::lipschitz_of_graph;
+#[allow(unused_imports)]
+use super::symbol::{asked, record};
 use super::{Fault, Graph, Material};
 use crate::catalogue::{
     AnyModifier, AnyPrimitive, Bounds, Class, Combination, Modifier, Operation, Primitive,
-    Similarity, Traits, with_blend, with_modifier, with_primitive,
+    Similarity, Traits, with_compiled_blend, with_compiled_modifier, with_compiled_primitive,
+    with_modifier, with_primitive, with_recorded_blend, with_recorded_modifier,
+    with_recorded_primitive,
 };
 use crate::num::{Number, Vec3};
 use std::sync::Arc;
@@ -28,7 +32,7 @@ pub struct FieldShape {
     /// The name in the script.
     pub name: String,
     /// The computation, with one output.
-    pub graph: Graph,
+    pub graph: Arc<Graph>,
     /// The claimed constant.
     pub claimed: Option<f64>,
 }
@@ -46,6 +50,8 @@ pub struct Place {
 #[derive(Clone, Debug)]
 pub struct Node {
     shape: Shape,
+    /// What a recorded entry computes from the fields of its children.
+    recording: Option<Arc<Graph>>,
     traits: Traits,
     bounds: Bounds,
     lipschitz: f64,
@@ -188,7 +194,9 @@ impl Node {
                 "unite many shapes at once, as in `union(list)`, instead of one after another",
             ));
         }
+        let recording = recorded(&shape).map(Arc::new);
         let size = 1 + match &shape {
+            _ if recording.is_some() => recording.as_ref().map_or(0, |graph| graph.work()),
             Shape::Primitive(AnyPrimitive::Polygon(polygon)) => polygon.points.len() as u64,
             Shape::Primitive(_) => 0,
             Shape::Field(field) => field.graph.work(),
@@ -204,6 +212,7 @@ impl Node {
         }
         let mut node = Self {
             shape,
+            recording,
             traits,
             bounds: Bounds::EVERYWHERE,
             lipschitz: everywhere,
@@ -248,6 +257,20 @@ impl Node {
     /// What the node is.
     pub fn shape(&self) -> &Shape {
         &self.shape
+    }
+
+    /// What it computes as a graph, which calls the fields of its children: for users' fields and for the recorded
+    /// entries of the catalogue. What has none is compiled.
+    pub fn graph(&self) -> Option<&Arc<Graph>> {
+        match &self.shape {
+            Shape::Field(field) => Some(&field.graph),
+            _ => self.recording.as_ref(),
+        }
+    }
+
+    /// Whether the node or any below it is evaluated as a graph.
+    pub fn has_graph(&self) -> bool {
+        self.graph().is_some() || self.children().iter().any(|child| child.has_graph())
     }
 
     /// What is known about its field.
@@ -386,17 +409,46 @@ impl Node {
 
     /// The field at `p`, by walking the tree: slow, and the measure of what is compiled.
     pub fn evaluate<N: Number>(&self, p: &Vec3<N>) -> N {
-        match &self.shape {
-            Shape::Primitive(primitive) => with_primitive!(primitive, leaf => leaf.distance(p)),
-            Shape::Field(field) => field.graph.value(p),
+        if let Some(graph) = self.graph() {
+            return graph.value(p);
+        }
+        let compiled = match &self.shape {
+            Shape::Primitive(primitive) => {
+                with_compiled_primitive!(primitive, leaf => leaf.distance(p))
+            }
+            Shape::Field(_) => None,
             Shape::Combination(combination, children) => {
                 let mut values = children.iter().map(|c| c.evaluate(p));
                 let first = values.next().expect("a combination has children");
-                with_blend!(&combination.blend, b => values.fold(first, |x, y| combination.operation.join(b, x, y)))
+                with_compiled_blend!(&combination.blend, b => {
+                    values.fold(first, |x, y| combination.operation.join(b, x, y))
+                })
             }
             Shape::Modifier(modifier, child) => {
-                with_modifier!(modifier, m => m.apply(p, |q| child.evaluate(q)))
+                with_compiled_modifier!(modifier, m => m.apply(p, |q| child.evaluate(q)))
             }
+        };
+        compiled.expect("what is not compiled has a graph")
+    }
+}
+
+// Until there is a recorded blend and a recorded modifier.
+#[allow(unused_variables)]
+/// What a recorded entry computes; none for what is compiled, and for users' fields, which have a graph already.
+fn recorded(shape: &Shape) -> Option<Graph> {
+    match shape {
+        Shape::Primitive(primitive) => {
+            with_recorded_primitive!(primitive, leaf => record(|p| leaf.distance(p)))
+        }
+        Shape::Field(_) => None,
+        Shape::Combination(combination, children) => {
+            with_recorded_blend!(&combination.blend, b => record(|p| {
+                let values = children[1..].iter().map(|child| asked(child, p));
+                values.fold(asked(&children[0], p), |x, y| combination.operation.join(b, x, y))
+            }))
+        }
+        Shape::Modifier(modifier, child) => {
+            with_recorded_modifier!(modifier, m => record(|p| m.apply(p, |q| asked(child, q))))
         }
     }
 }

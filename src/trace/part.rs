@@ -126,10 +126,11 @@ impl Marched {
             return Err(unbounded(node));
         }
         let slope =
-            (is_auto && node.traits().is_convex && !node.traits().is_sheet).then(|| Slope {
-                wide: compile_convex(node, level),
-                single: compile_convex(node, Level::Baseline),
-            });
+            (is_auto && node.traits().is_convex && !node.traits().is_sheet && !node.has_graph())
+                .then(|| Slope {
+                    wide: compile_convex(node, level),
+                    single: compile_convex(node, Level::Baseline),
+                });
         Ok(Self {
             region,
             lipschitz,

@@ -100,10 +100,19 @@ fn arguments(declaration: &Declaration, dice: &mut Dice) -> Vec<Argument> {
         .collect()
 }
 
+/// The entries of one kind that the laws are tried on: all, unless `FIELDSTONE_ENTRIES` names some of them (separated by
+/// commas).
+fn tried(all: &[&'static Declaration]) -> Vec<&'static Declaration> {
+    let names = std::env::var("FIELDSTONE_ENTRIES").unwrap_or_default();
+    let named = |d: &&'static Declaration| names.split(',').any(|name| name == d.name);
+    let some: Vec<_> = all.iter().copied().filter(named).collect();
+    if some.is_empty() { all.to_vec() } else { some }
+}
+
 /// `n` random instances of every primitive; profiles are extruded.
 pub fn instances(n: u64) -> Vec<(String, Arc<Node>)> {
     let mut all = Vec::new();
-    for declaration in AnyPrimitive::DECLARATIONS {
+    for declaration in tried(AnyPrimitive::DECLARATIONS) {
         let mut made = 0;
         for seed in 0.. {
             assert!(
@@ -139,7 +148,7 @@ pub fn instances(n: u64) -> Vec<(String, Arc<Node>)> {
 
 /// One random instance of every modifier.
 pub fn modifiers(dice: &mut Dice) -> Vec<AnyModifier> {
-    AnyModifier::DECLARATIONS
+    tried(AnyModifier::DECLARATIONS)
         .iter()
         .map(|d| AnyModifier::from_arguments(d.name, &arguments(d, dice)).expect("listed by name"))
         .collect()

@@ -19,7 +19,7 @@ fn entry(declaration: &Declaration) -> String {
         let (name, kind, range) = (
             parameter.name,
             parameter.kind.noun(),
-            parameter.range.words(),
+            parameter.range_in_words(),
         );
         text += &format!(
             "- `{name}`: {kind}, {range}; {default}. {}\n",

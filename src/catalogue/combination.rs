@@ -31,6 +31,24 @@ impl Operation {
         }
     }
 
+    /// What it gives.
+    pub fn summary(self) -> &'static str {
+        match self {
+            Self::Union => "What is in any of the shapes.",
+            Self::Intersection => "What is in all of the shapes.",
+            Self::Difference => "What is in the first shape and in none of the others.",
+        }
+    }
+
+    /// A line of script that shows it.
+    pub fn example(self) -> &'static str {
+        match self {
+            Self::Union => "union(box([1.4, 0.6, 1.4]), sphere(0.6).translate([0, 0.5, 0]))",
+            Self::Intersection => "intersection(box(1.4), sphere(0.9))",
+            Self::Difference => "difference(box(1.4), sphere(0.9))",
+        }
+    }
+
     /// The field of the operation on two fields, joined by `blend`.
     #[inline(always)]
     pub fn join<B: Blend, N: Number>(self, blend: &B, a: N, b: N) -> N {

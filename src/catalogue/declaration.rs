@@ -35,6 +35,23 @@ pub struct Parameter {
     pub default: Option<fn() -> Argument>,
 }
 
+impl Parameter {
+    /// What values are allowed, in words: "must be ...".
+    pub fn range_in_words(&self) -> String {
+        match self.kind {
+            Kind::Angle => self
+                .range
+                .words_of(|x| format!("{}deg", rounded(x.to_degrees()))),
+            _ => self.range.words_of(|x| x.to_string()),
+        }
+    }
+}
+
+/// The number without what its conversion to degrees adds to it.
+fn rounded(x: f64) -> f64 {
+    (x * 1e9).round() / 1e9
+}
+
 /// What kind of value a parameter takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -114,15 +131,18 @@ impl Range {
         (self.low < x || (self.includes_low && self.low == x)) && x <= self.high
     }
 
-    /// The range in words: "must be ...".
-    pub fn words(&self) -> String {
+    /// The range in words, its ends by `shown`: "must be ...".
+    fn words_of(&self, shown: impl Fn(f64) -> String) -> String {
+        let (low, high) = (shown(self.low), shown(self.high));
         match (self.low == f64::MIN, self.high >= f64::MAX) {
             (true, true) => "finite".into(),
             (false, true) if self.low == 0.0 && !self.includes_low => "positive".into(),
             (false, true) if self.low == 0.0 => "zero or positive".into(),
-            (false, true) => format!("at least {}", self.low),
-            (true, false) => format!("at most {}", self.high),
-            (false, false) => format!("between {} and {}", self.low, self.high),
+            (false, true) if self.includes_low => format!("at least {low}"),
+            (false, true) => format!("above {low}"),
+            (true, false) => format!("at most {high}"),
+            (false, false) if self.includes_low => format!("between {low} and {high}"),
+            (false, false) => format!("above {low} and at most {high}"),
         }
     }
 }

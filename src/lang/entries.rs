@@ -174,7 +174,7 @@ impl<'a> Machine<'a> {
             .iter()
             .all(|x| parameter.range.contains(*x))
         {
-            Some(parameter.range.words())
+            Some(parameter.range_in_words())
         } else if parameter.kind == Kind::Count
             && argument.components().iter().any(|x| x.fract() != 0.0)
         {
@@ -231,10 +231,12 @@ fn default_help(parameter: &Parameter) -> Option<String> {
         .map(|default| format!("the default is {}", shown(&default())))
 }
 
-fn shown(argument: &Argument) -> String {
+/// The argument as it would be written in a script.
+pub(super) fn shown(argument: &Argument) -> String {
     match argument {
         Argument::Angle(x) => Value::Angle(*x).to_string(),
         Argument::Number(x) => Value::Number(*x).to_string(),
+        Argument::Vector2(v) => Value::Vector2(*v).to_string(),
         Argument::Vector3(v) => Value::Vector3(*v).to_string(),
         other => other.to_string(),
     }

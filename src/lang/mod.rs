@@ -39,8 +39,10 @@ mod syntax;
 mod terms;
 mod trial;
 mod value;
+mod words;
 
 pub use load::{LoadError, Loaded, load, load_text};
 pub use report::{Diagnostic, Level, Report};
 pub use source::{Source, Sources, Span};
 pub use trial::TestResult;
+pub use words::{Group, Word};

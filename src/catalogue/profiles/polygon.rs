@@ -8,7 +8,7 @@ entry! {
     /// The inside of a closed outline that does not cross itself, given corner by corner in either direction.
     Polygon = "polygon" {
         /// The corners, three or more.
-        points: Vec<[f64; 2]>, Points, Range::ANY;
+        points: Vec<[f64; 2]>, Points, Range::ANY, default vec![[-0.6, -0.4], [0.6, -0.4], [0.0, 0.7]];
     }
     derived {
         edges: Vec<Edge> = outline(&points);

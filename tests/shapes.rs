@@ -19,7 +19,7 @@ fn entry(declaration: &Declaration) -> String {
         let (name, kind, range) = (
             parameter.name,
             parameter.kind.noun(),
-            parameter.range_in_words(),
+            parameter.range_words(),
         );
         text += &format!(
             "- `{name}`: {kind}, {range}; {default}. {}\n",

@@ -37,19 +37,36 @@ pub struct Parameter {
 
 impl Parameter {
     /// What values are allowed, in words: "must be ...".
-    pub fn range_in_words(&self) -> String {
+    pub fn range_words(&self) -> String {
         match self.kind {
-            Kind::Angle => self
-                .range
-                .words_of(|x| format!("{}deg", rounded(x.to_degrees()))),
-            _ => self.range.words_of(|x| x.to_string()),
+            Kind::Angle => self.range.in_words(|x| Argument::Angle(x).to_string()),
+            _ => self.range.in_words(written),
         }
+    }
+
+    /// The value when it is left out, as it would be written in a script; none where it must be given.
+    pub fn default_in_words(&self) -> Option<String> {
+        self.default.map(|default| default().to_string())
     }
 }
 
-/// The number without what its conversion to degrees adds to it.
-fn rounded(x: f64) -> f64 {
-    (x * 1e9).round() / 1e9
+/// A number as it would be written in a script, with up to twelve significant digits.
+pub fn written(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return match x {
+            x if x.is_nan() => "not a number".into(),
+            x if x.is_infinite() && x > 0.0 => "infinity".into(),
+            x if x.is_infinite() => "-infinity".into(),
+            _ => "0".into(),
+        };
+    }
+    let rounded: f64 = format!("{x:.11e}").parse().unwrap_or(x);
+    let magnitude = rounded.abs();
+    if (1e-5..1e15).contains(&magnitude) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
+    }
 }
 
 /// What kind of value a parameter takes.
@@ -132,7 +149,7 @@ impl Range {
     }
 
     /// The range in words, its ends by `shown`: "must be ...".
-    fn words_of(&self, shown: impl Fn(f64) -> String) -> String {
+    fn in_words(&self, shown: impl Fn(f64) -> String) -> String {
         let (low, high) = (shown(self.low), shown(self.high));
         match (self.low == f64::MIN, self.high >= f64::MAX) {
             (true, true) => "finite".into(),
@@ -181,12 +198,12 @@ impl Argument {
 impl fmt::Display for Argument {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let list = |v: &[f64]| {
-            let words: Vec<_> = v.iter().map(f64::to_string).collect();
+            let words: Vec<_> = v.iter().copied().map(written).collect();
             format!("[{}]", words.join(", "))
         };
         match self {
-            Self::Number(x) => write!(f, "{x}"),
-            Self::Angle(x) => write!(f, "{}deg", x.to_degrees()),
+            Self::Number(x) => f.write_str(&written(*x)),
+            Self::Angle(x) => write!(f, "{}deg", written(x.to_degrees())),
             Self::Vector2(v) => write!(f, "{}", list(v)),
             Self::Vector3(v) => write!(f, "{}", list(v)),
             Self::Axis(i) => write!(f, "\"{}\"", AXES[*i]),

@@ -20,6 +20,15 @@ impl Class {
             Self::Exact => "exact",
         }
     }
+
+    /// What it says about the field.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Lipschitz => "the field is at most the distance times the constant",
+            Self::Bound => "the field is at most the distance",
+            Self::Exact => "the field is the distance",
+        }
+    }
 }
 
 /// Properties of a field that its entry declares and that combinations preserve or lose.

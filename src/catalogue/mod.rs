@@ -21,7 +21,7 @@ pub use blend::{Blend, Hard, Smooth};
 pub use bounds::Bounds;
 pub use combination::{Combination, Operation};
 pub use declaration::{
-    AXES, Argument, Axis, Declaration, Declared, Kind, Parameter, Parametric, Range,
+    AXES, Argument, Axis, Declaration, Declared, Kind, Parameter, Parametric, Range, written,
 };
 pub use facts::{Class, Traits};
 pub use function::Function;

@@ -10,6 +10,7 @@ mod interrupt;
 mod new;
 mod outline;
 mod progress;
+mod reference;
 mod render;
 mod script;
 mod stats;
@@ -58,6 +59,7 @@ enum Command {
     Eval(eval::Arguments),
     Trace(trace::Arguments),
     Test(test::Arguments),
+    Reference(reference::Arguments),
     Completions(completions::Arguments),
 }
 
@@ -78,6 +80,7 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::Eval(arguments) => eval::run(arguments),
         Command::Trace(arguments) => trace::run(arguments),
         Command::Test(arguments) => test::run(arguments),
+        Command::Reference(arguments) => reference::run(arguments),
         Command::Completions(arguments) => completions::run(arguments, Cli::command()),
     }
 }

@@ -3,8 +3,8 @@
 use super::ast::GlobalId;
 use super::machine::Machine;
 use super::report::Diagnostic;
-use super::value::{Value, number};
-use crate::catalogue::{Bounds, Modifier, with_modifier};
+use super::value::Value;
+use crate::catalogue::{Bounds, Modifier, with_modifier, written};
 use crate::scene::{FieldShape, Node, Refutation, Shape, refute};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -54,11 +54,11 @@ impl Machine<'_> {
         };
         let name = &routine.name.text;
         let message = format!("the claimed Lipschitz constant of `{name}` is refuted");
-        let slope = number(&found.slope);
+        let slope = written(found.slope);
         let error = Diagnostic::error(claim.span, message)
             .label(format!(
                 "claimed {}, but the slope is {slope} at {}",
-                number(&claimed),
+                written(claimed),
                 Value::Vector3(found.point)
             ))
             .help(format!(

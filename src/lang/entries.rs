@@ -106,7 +106,7 @@ impl<'a> Machine<'a> {
         if let Some(value) = place.map(|i| &filled.arguments[i])
             && span != at
         {
-            error = error.label(format!("this is {}", shown(value)));
+            error = error.label(format!("this is {value}"));
         }
         if !fault.hint.is_empty() {
             error = error.help(fault.hint);
@@ -174,7 +174,7 @@ impl<'a> Machine<'a> {
             .iter()
             .all(|x| parameter.range.contains(*x))
         {
-            Some(parameter.range_in_words())
+            Some(parameter.range_words())
         } else if parameter.kind == Kind::Count
             && argument.components().iter().any(|x| x.fract() != 0.0)
         {
@@ -227,19 +227,8 @@ impl<'a> Machine<'a> {
 
 fn default_help(parameter: &Parameter) -> Option<String> {
     parameter
-        .default
-        .map(|default| format!("the default is {}", shown(&default())))
-}
-
-/// The argument as it would be written in a script.
-pub(super) fn shown(argument: &Argument) -> String {
-    match argument {
-        Argument::Angle(x) => Value::Angle(*x).to_string(),
-        Argument::Number(x) => Value::Number(*x).to_string(),
-        Argument::Vector2(v) => Value::Vector2(*v).to_string(),
-        Argument::Vector3(v) => Value::Vector3(*v).to_string(),
-        other => other.to_string(),
-    }
+        .default_in_words()
+        .map(|default| format!("the default is {default}"))
 }
 
 /// The value as the parameter's kind wants it; none where it is of another kind.

@@ -439,7 +439,7 @@ impl<'a> Machine<'a> {
                 if count <= MAX_LIST as f64 {
                     return Ok(count as usize);
                 }
-                let count = super::value::number(&count);
+                let count = crate::catalogue::written(count);
                 let message = format!(
                     "the range has {count} elements, more than {MAX_LIST} (limit MAX_LIST)"
                 );

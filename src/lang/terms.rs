@@ -121,7 +121,7 @@ impl<'a> Terms<'a> {
             None => default,
             Some((Value::Number(x), _)) if range.1(x) && x.is_finite() => x,
             Some((value @ Value::Number(_), _)) => {
-                let shown = Some(super::value::number(&default));
+                let shown = Some(crate::catalogue::written(default));
                 self.out_of_range(machine, name, range.0, &value, shown);
                 default
             }

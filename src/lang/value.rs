@@ -3,7 +3,7 @@
 use super::ast::{GlobalId, Literal, RoutineKind};
 use super::builtin::Builtin;
 use super::hint::clipped;
-use crate::catalogue::AnyBlend;
+use crate::catalogue::{AnyBlend, written};
 use crate::scene::{Id, Material, Node, TraceRecord};
 use std::fmt;
 use std::sync::Arc;
@@ -341,10 +341,16 @@ fn vector_of(items: &[Value]) -> Option<Value> {
 /// As a script would write it, where it could.
 impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let joined = |xs: &[f64]| xs.iter().map(number).collect::<Vec<_>>().join(", ");
+        let joined = |xs: &[f64]| {
+            xs.iter()
+                .copied()
+                .map(written)
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
         match self {
-            Self::Number(x) => f.write_str(&number(x)),
-            Self::Angle(x) => write!(f, "{}deg", number(&x.to_degrees())),
+            Self::Number(x) => f.write_str(&written(*x)),
+            Self::Angle(x) => write!(f, "{}deg", written(x.to_degrees())),
             Self::Bool(x) => write!(f, "{x}"),
             Self::Text(text) => write!(f, "\"{text}\""),
             Self::Vector2(v) => write!(f, "[{}]", joined(v)),
@@ -384,24 +390,5 @@ impl fmt::Display for Value {
             }
             other => f.write_str(other.noun()),
         }
-    }
-}
-
-/// A number with up to twelve significant digits, without trailing zeros.
-pub(super) fn number(x: &f64) -> String {
-    if *x == 0.0 || !x.is_finite() {
-        return match x {
-            x if x.is_nan() => "not a number".into(),
-            x if x.is_infinite() && *x > 0.0 => "infinity".into(),
-            x if x.is_infinite() => "-infinity".into(),
-            _ => "0".into(),
-        };
-    }
-    let rounded: f64 = format!("{x:.11e}").parse().unwrap_or(*x);
-    let magnitude = rounded.abs();
-    if (1e-5..1e15).contains(&magnitude) {
-        format!("{rounded}")
-    } else {
-        format!("{rounded:e}")
     }
 }

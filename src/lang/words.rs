@@ -1,7 +1,6 @@
 //! The words that every script knows, with what is said of each: what the reference prints.
 
 use super::builtin::Intrinsic;
-use super::entries::shown;
 use super::hint::nearest;
 use crate::catalogue::{
     AnyBlend, AnyModifier, AnyPrimitive, Argument, Declaration, Function, Operation, Parameter,
@@ -181,10 +180,13 @@ impl Word {
 
 /// A call of the entry in which every parameter has its default, or where it must be given, only its name.
 fn call(declaration: &Declaration) -> String {
-    let parameters = declaration.parameters.iter().map(|p| match p.default {
-        Some(default) => format!("{}: {}", p.name, shown(&default())),
-        None => p.name.into(),
-    });
+    let parameters = declaration
+        .parameters
+        .iter()
+        .map(|p| match p.default_in_words() {
+            Some(default) => format!("{}: {default}", p.name),
+            None => p.name.into(),
+        });
     format!(
         "{}({})",
         declaration.name,

@@ -17,6 +17,11 @@ fn gradient_at(node: &Node, p: [f64; 3]) -> [f64; 3] {
     node.evaluate(&Vec3::new(x, y, z)).partial
 }
 
+/// The length of the gradient at a point.
+pub fn slope_at(node: &Node, p: [f64; 3]) -> f64 {
+    length(gradient_at(node, p))
+}
+
 fn length(v: [f64; 3]) -> f64 {
     v[0].hypot(v[1]).hypot(v[2])
 }
@@ -31,7 +36,7 @@ fn region(node: &Node) -> Bounds {
 }
 
 /// Around the region, where the constant must hold too if it holds everywhere.
-fn surroundings(node: &Node) -> Bounds {
+pub fn surroundings(node: &Node) -> Bounds {
     let inner = region(node);
     if inner.is_empty() {
         return inner;
@@ -70,23 +75,6 @@ pub fn lipschitz(node: &Node, dice: &mut Dice) -> Law {
         }
     }
     Ok(())
-}
-
-/// The steepest slope found reaches the constant up to a factor.
-pub fn tight(node: &Node, dice: &mut Dice, slack: f64) -> Law {
-    let domain = surroundings(node);
-    if domain.is_empty() || node.lipschitz().is_infinite() {
-        return Ok(());
-    }
-    let slopes = (0..4000).map(|_| length(gradient_at(node, dice.point(&domain))));
-    let steepest = slopes.filter(|s| s.is_finite()).fold(0.0, f64::max);
-    if node.lipschitz() <= slack * steepest {
-        return Ok(());
-    }
-    Err(format!(
-        "constant {} but the steepest slope is {steepest}",
-        node.lipschitz()
-    ))
 }
 
 /// Points where the field is at most a level lie in the box for that level.

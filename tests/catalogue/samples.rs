@@ -85,7 +85,8 @@ fn star(dice: &mut Dice) -> Vec<[f64; 2]> {
         .collect()
 }
 
-fn arguments(declaration: &Declaration, dice: &mut Dice) -> Vec<Argument> {
+/// Random arguments, which the entry may still refuse.
+pub fn arguments(declaration: &Declaration, dice: &mut Dice) -> Vec<Argument> {
     declaration
         .parameters
         .iter()
@@ -102,48 +103,71 @@ fn arguments(declaration: &Declaration, dice: &mut Dice) -> Vec<Argument> {
 
 /// The entries of one kind that the laws are tried on: all, unless `FIELDSTONE_ENTRIES` names some of them (separated by
 /// commas).
-fn tried(all: &[&'static Declaration]) -> Vec<&'static Declaration> {
+pub fn tried(all: &[&'static Declaration]) -> Vec<&'static Declaration> {
     let names = std::env::var("FIELDSTONE_ENTRIES").unwrap_or_default();
     let named = |d: &&'static Declaration| names.split(',').any(|name| name == d.name);
     let some: Vec<_> = all.iter().copied().filter(named).collect();
     if some.is_empty() { all.to_vec() } else { some }
 }
 
-/// `n` random instances of every primitive; profiles are extruded.
-pub fn instances(n: u64) -> Vec<(String, Arc<Node>)> {
+/// A random valid instance of a primitive.
+pub fn leaf(declaration: &Declaration, seed: u64) -> (String, Arc<Node>) {
+    let mut dice = Dice::new(seed * 31 + declaration.name.len() as u64);
+    for _ in 0..1000 {
+        let arguments = arguments(declaration, &mut dice);
+        let primitive =
+            AnyPrimitive::from_arguments(declaration.name, &arguments).expect("listed by name");
+        if let Ok(node) = Node::primitive(primitive) {
+            return (format!("{}{arguments:?}", declaration.name), node);
+        }
+    }
+    panic!("{}: no valid arguments found", declaration.name);
+}
+
+/// `n` random instances of every primitive, with the name of its entry.
+pub fn leaves(n: u64) -> Vec<(&'static str, String, Arc<Node>)> {
     let mut all = Vec::new();
-    for declaration in tried(AnyPrimitive::DECLARATIONS) {
-        let mut made = 0;
-        for seed in 0.. {
-            assert!(
-                seed < 1000,
-                "{}: no valid arguments found",
-                declaration.name
-            );
-            let mut dice = Dice::new(seed * 31 + declaration.name.len() as u64);
-            let arguments = arguments(declaration, &mut dice);
-            let primitive =
-                AnyPrimitive::from_arguments(declaration.name, &arguments).expect("listed by name");
-            let Ok(node) = Node::primitive(primitive) else {
-                continue;
-            };
-            let name = format!("{}{arguments:?}", declaration.name);
-            if node.traits().is_planar {
-                let extrude = AnyModifier::Extrude(Extrude::new(dice.between(0.2, 1.0)));
-                all.push((
-                    name,
-                    Node::modifier(extrude, node).expect("a profile can be extruded"),
-                ));
-            } else {
-                all.push((name, node));
-            }
-            made += 1;
-            if made == n {
-                break;
-            }
+    for d in tried(AnyPrimitive::DECLARATIONS) {
+        for seed in 0..n {
+            let (name, node) = leaf(d, seed);
+            all.push((d.name, name, node));
         }
     }
     all
+}
+
+/// The shape turned and moved at random; a profile stays in its plane.
+pub fn placed(node: Arc<Node>, dice: &mut Dice) -> Arc<Node> {
+    let (angle, is_planar) = (dice.between(0.3, 2.8), node.traits().is_planar);
+    let axis: [f64; 3] = std::array::from_fn(|_| dice.between(-1.0, 1.0));
+    let shift: [f64; 3] = std::array::from_fn(|_| dice.between(-0.3, 0.3));
+    let [axis, shift] = if is_planar {
+        [[0.0, 0.0, 1.0], [shift[0], shift[1], 0.0]]
+    } else {
+        [axis, shift]
+    };
+    let turned = AnyModifier::Rotate(Rotate::new(angle, axis, 0.0, 0.0, 0.0));
+    let moved = AnyModifier::Translate(Translate::new(shift));
+    let node = Node::modifier(turned, node).expect("anything turns");
+    Node::modifier(moved, node).expect("anything moves")
+}
+
+/// A profile with thickness; a shape in space as it is.
+pub fn in_space(node: Arc<Node>, height: f64) -> Arc<Node> {
+    if !node.traits().is_planar {
+        return node;
+    }
+    let extrude = AnyModifier::Extrude(Extrude::new(height));
+    Node::modifier(extrude, node).expect("a profile can be extruded")
+}
+
+/// `n` random instances of every primitive; profiles are extruded.
+pub fn instances(n: u64) -> Vec<(String, Arc<Node>)> {
+    leaves(n)
+        .into_iter()
+        .enumerate()
+        .map(|(i, (_, name, node))| (name, in_space(node, 0.2 + 0.1 * (i % 9) as f64)))
+        .collect()
 }
 
 /// One random instance of every modifier.

@@ -53,6 +53,9 @@ fn rotation(axis: [f64; 3], angle: f64) -> [[f64; 3]; 3] {
     let cross = [[0.0, -u[2], u[1]], [u[2], 0.0, -u[0]], [-u[1], u[0], 0.0]];
     std::array::from_fn(|i| {
         std::array::from_fn(|j| {
+            if i == j && u[i].abs() == 1.0 {
+                return 1.0; // what c + (1 - c) may miss
+            }
             let identity = if i == j { c } else { 0.0 };
             identity + s * cross[i][j] + (1.0 - c) * u[i] * u[j]
         })

@@ -313,6 +313,57 @@ fn shapes_combine_as_sets() {
 }
 
 #[test]
+fn blends_that_are_operations_take_shapes_first() {
+    holds(
+        "let s = sphere(1)\nlet b = sphere(2)\nlet far = s.translate([3, 0, 0])",
+        &[
+            "morph(s, b, t: 0.25).at([5, 0, 0]) == 3.75",
+            "s.morph(b, 0.25).at([5, 0, 0]) == 3.75",
+            "morph(s, b).at([5, 0, 0]) == 3.5",
+            "morph([s, b], 0).at([5, 0, 0]) == 4",
+            "s.xor(b).at([0, 0, 0]) == 1",
+            "s.xor(b).at([1.5, 0, 0]) == -0.5",
+            "xor(s, s, s).at([0, 0, 0]) == -1",
+            "xor([s, far], b).at([3, 0, 0]) == -1",
+            "s.pipe(plane(\"y\"), 0.1).at([2, 0, 0]) == 0.9",
+            "s.groove(plane(\"y\"), depth: 0.3).at([0.9, 0, 0]) == 0.1",
+            "s.tongue(plane(\"y\"), height: 0.3).at([1.2, 0, 0]) == -0.1",
+            "abs(s.engrave(plane(\"y\"), 0.2).at([1, 0, 0]) - 0.2 * sqrt(0.5)) < 1e-15",
+            "s.pipe(b, 0.1).lipschitz == sqrt(2)",
+            "union(s, b, blend: chamfer(0.1)).lipschitz == sqrt(2)",
+            "union(s, b, blend: chamfer(0)).lipschitz == 1",
+            "union(s, b, blend: round(0.1)).class == \"lipschitz\"",
+            "union(s, b, blend: stairs(0.3)).class == \"bound\"",
+        ],
+    );
+    for (script, message) in [
+        (
+            "show morph(sphere(1), 0.5)",
+            "`morph` takes two shapes, but here are 1",
+        ),
+        (
+            "show morph(sphere(1), box(1), t: 2)",
+            "`t` of `morph` must be between 0 and 1",
+        ),
+        (
+            "show union(sphere(1), blend: morph(0.5))",
+            "`morph` takes two shapes, but here are 0",
+        ),
+        (
+            "show cubic(sphere(1), box(1), 0.2)",
+            "`cubic` is a blend, not an operation",
+        ),
+        (
+            "show union(sphere(1), box(1), blend: round(-0.1))",
+            "`k` of `round` must be zero or positive",
+        ),
+    ] {
+        let text = errors(script);
+        assert!(text.contains(message), "{script}: {text}");
+    }
+}
+
+#[test]
 fn rays_can_be_asked() {
     holds(
         "let s = sphere(1)\nshow s.translate([0, 0, 1])",

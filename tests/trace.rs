@@ -754,3 +754,24 @@ fn slopes_of_a_blend_are_halves_where_its_shapes_tie() {
         );
     }
 }
+
+#[test]
+fn a_chamfer_of_parallel_floors_is_not_stepped_through() {
+    // Catalogue C22: the strip lies at y = 0.125, where the field has the slope sqrt 2.
+    let floor = |offset| leaf(AnyPrimitive::Plane(Plane::new([0.0, 1.0, 0.0], offset)));
+    let chamfer = AnyBlend::Chamfer(Chamfer::new(0.2));
+    let node = combined(Operation::Union, chamfer, &[floor(0.0), floor(0.05)]);
+    for method in [Method::Auto, Method::Sphere] {
+        let settings = Settings {
+            method,
+            ..Settings::default()
+        };
+        let world = World::of(std::slice::from_ref(&node), &settings).expect("a world");
+        for (tilt, expected) in [(0.0, 0.875), (1.0, 0.875 * 2.0_f64.sqrt())] {
+            let down = ray([0.0, 1.0, 0.0], [tilt, -1.0, 0.0]);
+            let out = world.nearest(&[down], Visibility::All)[0];
+            assert_eq!(out.verdict, Verdict::Hit);
+            assert!((out.t - expected).abs() < 1e-3, "{method:?}: {out:?}");
+        }
+    }
+}

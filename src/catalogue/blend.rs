@@ -1,61 +1,78 @@
-//! Blends: how a union joins two fields.
+//! Blends: how several fields become one.
 //!
-//! A blend is given as the union of two fields; intersection and difference follow from it by signs.
+//! Most soften or shape the seam of a set operation. They are given as the union of two fields; intersection and
+//! difference follow from it by signs. The others are operations of their own, as `morph(a, b, 0.5)`.
 
-use super::{AnyBlend, Range, declaration::entry, with_blend};
+use super::{AnyBlend, Bounds, Hard, with_blend};
 use crate::num::Number;
+
+/// How scripts use a blend.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Manner {
+    /// As the seam of a set operation: `union(a, b, ..., blend: smooth(0.1))`.
+    Seam,
+    /// As an operation of exactly two shapes: `morph(a, b, 0.5)`.
+    Pair,
+    /// As an operation of any number of shapes: `xor(a, b, ...)`.
+    Several,
+}
 
 /// The mathematics of a blend.
 pub trait Blend: super::Declared {
-    /// The union of two fields: at most the smaller of them, monotone in both, with partial derivatives that are not
-    /// negative and sum to 1, so that its Lipschitz constant is the larger of theirs.
+    /// How scripts use it.
+    const MANNER: Manner = Manner::Seam;
+
+    /// The Lipschitz rule in words, with its source.
+    const RULE: &'static str = "the larger constant of the two: the partial derivatives are not negative and sum to 1 \
+         (Hart 1996, section 3)";
+
+    /// Whether the second shape only says where the first one changes, so that new faces show the first one's material
+    /// where the second is not painted.
+    const IS_TOOL: bool = false;
+
+    /// The field of two fields. For a seam it is their union: at most the smaller of them, and monotone in both.
     fn union<N: Number>(&self, a: N, b: N) -> N;
 
-    /// How far the union of `n` fields, folded from first to last, can lie below the smallest of them.
-    fn depth(&self, n: usize) -> f64;
+    /// A Lipschitz constant of [`Blend::union`] of two fields with these constants: the supremum of the sum of the
+    /// partial derivatives, without their signs, each times its constant.
+    fn lipschitz(&self, a: f64, b: f64) -> f64 {
+        a.max(b)
+    }
+
+    /// For a seam: where `n` fields, folded from first to last, are at most `level >= 0`, the smallest of them is at most
+    /// this.
+    fn reach(&self, level: f64, _n: usize) -> f64 {
+        level
+    }
+
+    /// A box that holds every point where `n` fields, folded from first to last, are at most `level >= 0`, from the
+    /// same question about each, by number.
+    fn sublevel(&self, n: usize, level: f64, child: &dyn Fn(usize, f64) -> Bounds) -> Bounds {
+        let level = self.reach(level, n);
+        (0..n).fold(Bounds::EMPTY, |b, i| b.hull(child(i, level)))
+    }
+
+    /// Whether it is the minimum itself.
+    fn is_hard(&self) -> bool {
+        false
+    }
 }
 
-entry! {
-    /// The plain minimum: edges stay sharp.
-    Hard = "hard" {}
-    source "Ricci 1973"
-    example "union(sphere(1), box(1.5), blend: hard())"
+/// [`Blend::reach`] where two fields reach at most `depth` below the smaller of them, and do not blend where they differ
+/// by `width` or more: a fold that lies `width` below every later field stays there, so it never gets deeper.
+pub(super) fn compact_reach(level: f64, n: usize, depth: f64, width: f64) -> f64 {
+    level + (depth * n.saturating_sub(1) as f64).min(width)
 }
 
-impl Blend for Hard {
-    #[inline(always)]
-    fn union<N: Number>(&self, a: N, b: N) -> N {
-        a.min(b)
-    }
-
-    fn depth(&self, _: usize) -> f64 {
-        0.0
-    }
+/// [`Blend::reach`] where each further field moves the level towards `limit`, closer by the factor `sqrt(1/2)`.
+pub(super) fn halving_reach(level: f64, n: usize, limit: f64) -> f64 {
+    let left = 0.5_f64.powf(0.5 * n.saturating_sub(1) as f64);
+    level.max(limit + (level - limit) * left)
 }
 
-entry! {
-    /// The quadratic smooth minimum min(a, b) - max(k - |a - b|, 0)^2 / (4k): rounds the seam where the fields
-    /// differ by less than k, and changes nothing elsewhere.
-    Smooth = "smooth" {
-        /// The width of the blend, in scene units.
-        k: f64, Number, Range::NOT_NEGATIVE;
-    }
-    source "Quilez, smooth minimum (normalised form); Lipschitz rule: the partial derivatives sum to 1"
-    example "union(sphere(1), box(1.5), blend: smooth(0.3))"
-}
-
-impl Blend for Smooth {
-    #[inline(always)]
-    fn union<N: Number>(&self, a: N, b: N) -> N {
-        // b - a and not a - b: at a tie min has the slope of a, and so both slopes become 1/2.
-        let overlap = (N::splat(self.k) - (b - a).abs()).max(N::splat(0.0));
-        a.min(b) - overlap.square() * N::splat(0.25 / self.k)
-    }
-
-    fn depth(&self, n: usize) -> f64 {
-        // A fold that lies k below every later field no longer blends with it, so n fields reach at most k.
-        self.k * (0.25 * n.saturating_sub(1) as f64).min(1.0)
-    }
+/// `x / k`, and 0 for `k = 0`, where what is multiplied by it is 0.
+pub(super) fn over(x: f64, k: f64) -> f64 {
+    if k > 0.0 { x / k } else { 0.0 }
 }
 
 impl AnyBlend {
@@ -64,21 +81,41 @@ impl AnyBlend {
 
     /// The same blend, hard where it has no width.
     pub fn simplified(self) -> Self {
-        if self.depth(2) > 0.0 {
-            self
-        } else {
-            Self::HARD
-        }
-    }
-
-    /// How far the union of `n` fields can lie below the smallest of them.
-    pub fn depth(&self, n: usize) -> f64 {
-        with_blend!(self, blend => blend.depth(n))
+        if self.is_hard() { Self::HARD } else { self }
     }
 
     /// Whether the blend is the minimum itself.
     pub fn is_hard(&self) -> bool {
-        matches!(self, Self::Hard(_))
+        with_blend!(self, blend => blend.is_hard())
+    }
+
+    /// How scripts use it.
+    pub fn manner(&self) -> Manner {
+        fn of<B: Blend>(_: &B) -> Manner {
+            B::MANNER
+        }
+        with_blend!(self, blend => of(blend))
+    }
+
+    /// The Lipschitz rule in words, with its source.
+    pub fn rule(&self) -> &'static str {
+        fn of<B: Blend>(_: &B) -> &'static str {
+            B::RULE
+        }
+        with_blend!(self, blend => of(blend))
+    }
+
+    /// Whether the second shape only says where the first one changes.
+    pub fn is_tool(&self) -> bool {
+        fn of<B: Blend>(_: &B) -> bool {
+            B::IS_TOOL
+        }
+        with_blend!(self, blend => of(blend))
+    }
+
+    /// A Lipschitz constant of the blend of two fields with these constants.
+    pub fn lipschitz(&self, a: f64, b: f64) -> f64 {
+        with_blend!(self, blend => blend.lipschitz(a, b))
     }
 
     /// The name in scripts.

@@ -5,6 +5,7 @@
 //! recorded as graphs. The script's word, its error messages, the reference and the laws follow.
 
 mod blend;
+mod blends;
 mod bounds;
 mod combination;
 pub(crate) mod declaration;
@@ -17,7 +18,11 @@ mod primitive;
 mod profiles;
 mod solids;
 
-pub use blend::{Blend, Hard, Smooth};
+pub use blend::{Blend, Manner};
+pub use blends::{
+    Chamfer, Circular, Cubic, Engrave, Exponential, Fillet, Groove, Hard, Morph, Pipe, Smooth,
+    Stairs, Tongue, Xor,
+};
 pub use bounds::Bounds;
 pub use combination::{Combination, Operation};
 pub use declaration::{
@@ -55,5 +60,5 @@ declaration::list!($
     /// Any blend of the catalogue.
     AnyBlend, with_blend, with_compiled_blend, with_recorded_blend:
     Hard, Smooth;
-    recorded
+    recorded Cubic, Circular, Exponential, Chamfer, Fillet, Stairs, Xor, Morph, Pipe, Engrave, Groove, Tongue
 );

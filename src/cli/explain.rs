@@ -4,7 +4,7 @@ use super::console::{answer, counted};
 use super::failure::Failure;
 use super::outline::{bounds_in_words, object_name, short};
 use super::script::{Script, compile};
-use crate::catalogue::Bounds;
+use crate::catalogue::{Bounds, Combination, Operation};
 use crate::field::Level;
 use crate::scene::{Node, Scene, Shape};
 use crate::shade::Features;
@@ -162,6 +162,11 @@ fn rules_in_words(shown: &[Arc<Node>]) -> String {
     text
 }
 
+/// Whether the combination is a set operation that does more to its seam than to leave it.
+fn has_seam(combination: &Combination) -> bool {
+    combination.operation != Operation::Joint && !combination.blend.is_hard()
+}
+
 fn collect_rules(node: &Node, rules: &mut BTreeMap<String, &'static str>, left: &mut usize) {
     if *left == 0 {
         return;
@@ -169,6 +174,9 @@ fn collect_rules(node: &Node, rules: &mut BTreeMap<String, &'static str>, left: 
     *left -= 1;
     let kind = match node.shape() {
         Shape::Field(field) => format!("field {}", field.name),
+        Shape::Combination(combination, _) if has_seam(combination) => {
+            format!("{} by {}", node.kind(), combination.blend.name())
+        }
         _ => node.kind().into(),
     };
     rules.insert(kind, node.rule());

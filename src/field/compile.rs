@@ -127,7 +127,7 @@ macro_rules! builders {
                 let rest = children.split_off(1);
                 let first = children.remove(0);
                 match operation {
-                    Operation::Union => Box::new(move |p: &Vec3<N>| {
+                    Operation::Union | Operation::Joint => Box::new(move |p: &Vec3<N>| {
                         let mut value = first(p);
                         for child in &rest {
                             value = Operation::Union.join(&blend, value, child(p));

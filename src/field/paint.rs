@@ -1,9 +1,9 @@
 //! Which materials a point of the surface shows.
 //!
-//! A hard union shows the operand whose surface was hit; a blend mixes its operands by its partial derivatives, which
-//! are not negative and sum to 1; a cut face shows the tool's material if the tool is painted, else the body's.
+//! A hard union shows the operand whose surface was hit; a blend mixes its operands by its partial derivatives, without
+//! their signs and divided by their sum; a cut face shows the tool's material if the tool is painted, else the body's.
 
-use crate::catalogue::{AnyModifier, Combination, Modifier, Operation, with_blend, with_modifier};
+use crate::catalogue::{AnyModifier, Combination, Modifier, with_blend, with_modifier};
 use crate::num::{Dual, Vec3};
 use crate::scene::{Material, Node, Shape};
 use std::cell::Cell;
@@ -59,10 +59,10 @@ fn collect<'a>(node: &'a Node, p: [f64; 3], outer: Share<'a>, found: &mut Vec<Sh
                 .enumerate()
                 .filter(|(i, _)| weights[*i] > 0.0)
             {
-                if i == 0 || combination.operation != Operation::Difference {
-                    collect(child, p, shown(i), found);
-                } else {
+                if combination.is_tool(i) {
                     cut_face(child, &children[0], p, shown(i), found);
+                } else {
+                    collect(child, p, shown(i), found);
                 }
             }
         }
@@ -103,7 +103,7 @@ fn cut_face<'a>(
     }
 }
 
-/// The partial derivatives of a combination by its children, without their signs.
+/// The shares of a combination's children: its partial derivatives by them, without their signs and divided by their sum.
 fn weights(combination: &Combination, children: &[Arc<Node>], p: [f64; 3]) -> Vec<f64> {
     let point = Vec3::splat(p);
     let mut values = children.iter().map(|c| c.evaluate::<f64>(&point));
@@ -119,6 +119,14 @@ fn weights(combination: &Combination, children: &[Arc<Node>], p: [f64; 3]) -> Ve
         joined = both.value;
         weights.iter_mut().for_each(|w| *w *= both.partial[0].abs());
         weights.push(both.partial[1].abs());
+    }
+    let sum: f64 = weights.iter().sum();
+    if sum > 0.0 && sum.is_finite() {
+        weights.iter_mut().for_each(|w| *w /= sum);
+    } else {
+        // No direction is known: the first child stands for all.
+        weights.fill(0.0);
+        weights[0] = 1.0;
     }
     weights
 }

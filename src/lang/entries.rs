@@ -6,7 +6,8 @@ use super::report::Diagnostic;
 use super::source::Span;
 use super::value::Value;
 use crate::catalogue::{
-    AXES, AnyBlend, AnyModifier, AnyPrimitive, Argument, Declaration, Kind, Parameter,
+    AXES, AnyBlend, AnyModifier, AnyPrimitive, Argument, Declaration, Kind, Manner, Operation,
+    Parameter,
 };
 use crate::scene::{Fault, Node};
 use std::sync::Arc;
@@ -70,17 +71,27 @@ impl<'a> Machine<'a> {
         }
     }
 
-    /// A blend of the catalogue.
+    /// A blend of the catalogue; with shapes before its arguments, the operation that it is.
     pub fn blend(
         &mut self,
         entry: &'static Declaration,
         at: Span,
-        given: Vec<Given<'a>>,
+        mut given: Vec<Given<'a>>,
     ) -> Eval<Value> {
-        let filled = self.filled(entry, at, given, false)?;
+        let is_shape = |given: &&Given| given.label.is_none() && given.value.is_shape();
+        let count = given.iter().take_while(is_shape).count();
+        let rest = given.split_off(count);
+        let filled = self.filled(entry, at, rest, false)?;
         let blend = AnyBlend::from_arguments(entry.name, &filled.arguments)
             .expect("the entry is in the catalogue");
-        Ok(Value::Blend(Arc::new(blend)))
+        if count == 0 && blend.manner() == Manner::Seam {
+            return Ok(Value::Blend(Arc::new(blend)));
+        }
+        let mut all = Vec::new();
+        for shape in given {
+            self.gather(&shape.value, shape.span, &mut all)?;
+        }
+        self.combined(Operation::Joint, blend, all, at)
     }
 
     /// Counts the new shape and gives it as a value.

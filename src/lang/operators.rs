@@ -38,18 +38,10 @@ impl<'a> Machine<'a> {
 
     /// The set operation that an operator means with this value on its left.
     fn set_operation(&self, operator: Operator, left: &Value) -> Option<Operation> {
-        let is_shape = |value: &Value| match value {
-            Value::Shape(_) | Value::Routine(RoutineKind::Field, _) => true,
-            Value::List(list) => matches!(
-                list.items.first(),
-                Some(Value::Shape(_) | Value::List(_) | Value::Routine(RoutineKind::Field, _))
-            ),
-            _ => false,
-        };
         match operator {
             Operator::Unite => Some(Operation::Union),
             Operator::Intersect => Some(Operation::Intersection),
-            Operator::Subtract if is_shape(left) => Some(Operation::Difference),
+            Operator::Subtract if left.is_shape() => Some(Operation::Difference),
             _ => None,
         }
     }

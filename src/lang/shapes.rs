@@ -94,6 +94,7 @@ impl<'a> Machine<'a> {
         at: Span,
         given: Vec<Given<'a>>,
     ) -> Eval<Value> {
+        let name = operation.name();
         let mut blend = None;
         let mut all = Vec::new();
         for argument in given {
@@ -103,8 +104,7 @@ impl<'a> Machine<'a> {
             };
             if &*label.text != "blend" {
                 let message = format!(
-                    "`{}` has no argument `{}`",
-                    operation.name(),
+                    "`{name}` has no argument `{}`",
                     super::hint::clipped(&label.text)
                 );
                 let help = super::hint::nearest(&label.text, ["blend"]).map_or(
@@ -114,21 +114,20 @@ impl<'a> Machine<'a> {
                 return self.fail(Diagnostic::error(label.span, message).help(help));
             }
             if blend.is_some() {
-                let message = format!("`blend` of `{}` is given twice", operation.name());
+                let message = format!("`blend` of `{name}` is given twice");
                 return self.fail(Diagnostic::error(label.span, message));
             }
-            blend = Some(self.blend_of(operation, &argument)?);
+            blend = Some(self.blend_of(name, &argument)?);
         }
         self.combined(operation, blend.unwrap_or(AnyBlend::HARD), all, at)
     }
 
-    fn blend_of(&mut self, operation: Operation, argument: &Given) -> Eval<AnyBlend> {
+    fn blend_of(&mut self, name: &str, argument: &Given) -> Eval<AnyBlend> {
         if let Value::Blend(blend) = &argument.value {
             return Ok((**blend).clone());
         }
         let message = format!(
-            "`blend` of `{}` expects a blend, but this is {}",
-            operation.name(),
+            "`blend` of `{name}` expects a blend, but this is {}",
             argument.value.noun()
         );
         let error = Diagnostic::error(argument.span, message).label(argument.value.shown());

@@ -253,6 +253,19 @@ impl Value {
         }
     }
 
+    /// Whether it is a shape or a field, or a list that starts as a list of shapes does.
+    pub fn is_shape(&self) -> bool {
+        let is_one =
+            |value: &Self| matches!(value, Self::Shape(_) | Self::Routine(RoutineKind::Field, _));
+        match self {
+            Self::List(list) => {
+                let first = list.items.first();
+                first.is_some_and(|item| is_one(item) || matches!(item, Self::List(_)))
+            }
+            other => is_one(other),
+        }
+    }
+
     /// What the value is, with its article.
     pub fn noun(&self) -> &'static str {
         match self {

@@ -3,7 +3,8 @@
 use super::builtin::Intrinsic;
 use super::hint::nearest;
 use crate::catalogue::{
-    AnyBlend, AnyModifier, AnyPrimitive, Argument, Declaration, Function, Operation, Parameter,
+    AnyBlend, AnyModifier, AnyPrimitive, Argument, Declaration, Function, Manner, Operation,
+    Parameter,
 };
 use crate::scene::Node;
 use std::sync::Arc;
@@ -72,11 +73,10 @@ impl Word {
         let mut all = solids;
         all.extend(profiles);
         all.extend(Operation::ALL.map(|(_, operation)| Self::operation(operation)));
-        all.extend(
-            AnyBlend::DECLARATIONS
-                .iter()
-                .map(|d| Self::entry(d, Group::Blend)),
-        );
+        let blends = AnyBlend::DECLARATIONS.iter().map(|d| Self::blend(d));
+        let (seams, joints): (Vec<_>, Vec<_>) = blends.partition(|word| word.group == Group::Blend);
+        all.extend(joints);
+        all.extend(seams);
         all.extend(
             AnyModifier::DECLARATIONS
                 .iter()
@@ -136,13 +136,10 @@ impl Word {
     }
 
     fn primitive(declaration: &Declaration) -> Self {
-        let defaults = declaration.parameters.iter().map(|p| Some((p.default?)()));
-        let shape = defaults
-            .collect::<Option<Vec<Argument>>>()
-            .and_then(|arguments| {
-                let primitive = AnyPrimitive::from_arguments(declaration.name, &arguments)?;
-                Node::primitive(primitive).ok()
-            });
+        let shape = defaults(declaration).and_then(|arguments| {
+            let primitive = AnyPrimitive::from_arguments(declaration.name, &arguments)?;
+            Node::primitive(primitive).ok()
+        });
         let is_planar = shape.as_ref().is_some_and(|node| node.traits().is_planar);
         let group = if is_planar {
             Group::Profile
@@ -152,6 +149,23 @@ impl Word {
         Self {
             shape,
             ..Self::entry(declaration, group)
+        }
+    }
+
+    /// A seam, or an operation of its own, whose parameters all have defaults.
+    fn blend(declaration: &Declaration) -> Self {
+        let blend = defaults(declaration)
+            .and_then(|arguments| AnyBlend::from_arguments(declaration.name, &arguments));
+        let shapes = match blend.map(|blend| blend.manner()) {
+            None | Some(Manner::Seam) => return Self::entry(declaration, Group::Blend),
+            Some(Manner::Pair) => "a, b",
+            Some(Manner::Several) => "a, b, ...",
+        };
+        let arguments = arguments(declaration);
+        let comma = if arguments.is_empty() { "" } else { ", " };
+        Self {
+            signature: format!("{}({shapes}{comma}{arguments})", declaration.name),
+            ..Self::entry(declaration, Group::Combination)
         }
     }
 
@@ -178,8 +192,19 @@ impl Word {
     }
 }
 
+/// The arguments of the entry that are used when none is given; none where one must be.
+fn defaults(declaration: &Declaration) -> Option<Vec<Argument>> {
+    let defaults = declaration.parameters.iter().map(|p| Some((p.default?)()));
+    defaults.collect()
+}
+
 /// A call of the entry in which every parameter has its default, or where it must be given, only its name.
 fn call(declaration: &Declaration) -> String {
+    format!("{}({})", declaration.name, arguments(declaration))
+}
+
+/// The arguments of such a call.
+fn arguments(declaration: &Declaration) -> String {
     let parameters = declaration
         .parameters
         .iter()
@@ -187,11 +212,7 @@ fn call(declaration: &Declaration) -> String {
             Some(default) => format!("{}: {default}", p.name),
             None => p.name.into(),
         });
-    format!(
-        "{}({})",
-        declaration.name,
-        parameters.collect::<Vec<_>>().join(", ")
-    )
+    parameters.collect::<Vec<_>>().join(", ")
 }
 
 /// The words as a sentence.
@@ -225,6 +246,9 @@ mod tests {
         assert_eq!(signature("mix"), "mix(a, b, t)");
         assert_eq!(signature("checker"), "checker(a, b, size?)");
         assert_eq!(signature("union"), "union(a, b, ..., blend: hard())");
+        assert_eq!(signature("morph"), "morph(a, b, t: 0.5)");
+        assert_eq!(signature("xor"), "xor(a, b, ...)");
+        assert_eq!(signature("stairs"), "stairs(k, n: 3)");
     }
 
     #[test]

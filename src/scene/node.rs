@@ -106,19 +106,15 @@ impl Node {
     /// Several shapes as one. A hard union of hard unions becomes one with all their children.
     ///
     /// # Errors
-    /// If there is no child, or if profiles and shapes in space are mixed, or the tree gets too deep.
+    /// What [`Combination::check`] says, or that profiles and shapes in space are mixed, or that the tree gets too deep.
     pub fn combination(
         mut combination: Combination,
         children: Vec<Arc<Self>>,
     ) -> Result<Arc<Self>, Fault> {
         combination.blend = combination.blend.simplified();
-        if children.is_empty() {
-            let message = format!(
-                "`{}` needs at least one shape",
-                combination.operation.name()
-            );
-            return Err(Fault::new(message, ""));
-        }
+        combination
+            .check(children.len())
+            .map_err(|(message, hint)| Fault::new(message, hint))?;
         if children
             .iter()
             .any(|c| c.traits.is_planar != children[0].traits.is_planar)
@@ -138,7 +134,7 @@ impl Node {
             return Ok(only.clone());
         }
         let traits = combination.traits(&children.iter().map(|c| c.traits).collect::<Vec<_>>());
-        let everywhere = children.iter().map(|c| c.everywhere).fold(0.0, f64::max);
+        let everywhere = combination.lipschitz(children.iter().map(|c| c.everywhere));
         let is_regional = children.iter().any(|c| c.is_regional);
         Self::certified(
             Shape::Combination(combination, children),
@@ -227,10 +223,14 @@ impl Node {
         node.bounds = node.sublevel(0.0);
         if is_regional {
             node.lipschitz = node.lipschitz_over(node.bounds);
-            let is_claim_free = node.lipschitz <= 1.0;
-            if !is_claim_free {
-                node.traits.class = Class::Lipschitz;
-            }
+        }
+        let may_steepen = match &node.shape {
+            Shape::Combination(combination, _) => is_regional || !combination.blend.is_hard(),
+            _ => is_regional,
+        };
+        let is_claim_free = node.lipschitz <= 1.0;
+        if may_steepen && !is_claim_free {
+            node.traits.class = Class::Lipschitz;
         }
         Ok(Arc::new(node))
     }
@@ -318,7 +318,7 @@ impl Node {
         match &self.shape {
             Shape::Primitive(primitive) => primitive.declaration().name,
             Shape::Field(field) => &field.name,
-            Shape::Combination(combination, _) => combination.operation.name(),
+            Shape::Combination(combination, _) => combination.name(),
             Shape::Modifier(modifier, _) => modifier.declaration().name,
         }
     }
@@ -336,7 +336,7 @@ impl Node {
             Shape::Field(_) => {
                 "the largest gradient, by interval automatic differentiation over the bounds"
             }
-            Shape::Combination(..) => Combination::RULE,
+            Shape::Combination(combination, _) => combination.blend.rule(),
             Shape::Modifier(modifier, _) => with_modifier!(modifier, m => of_modifier(m)),
         }
     }
@@ -395,10 +395,9 @@ impl Node {
                 Some(claimed) => claimed,
                 None => lipschitz_of_graph(&field.graph, region),
             },
-            Shape::Combination(_, children) => children
-                .iter()
-                .map(|c| c.lipschitz_over(region))
-                .fold(0.0, f64::max),
+            Shape::Combination(combination, children) => {
+                combination.lipschitz(children.iter().map(|c| c.lipschitz_over(region)))
+            }
             Shape::Modifier(modifier, child) => {
                 let inner = with_modifier!(modifier, m => m.domain(region));
                 let slope = child.lipschitz_over(inner);

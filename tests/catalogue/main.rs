@@ -3,11 +3,12 @@
 //! Instances come from the declarations: a new entry is tested without a word here.
 
 mod ascent;
+mod blends;
 mod laws;
 mod samples;
 mod tightness;
 
-use fieldstone::catalogue::{AnyBlend, Combination, Operation};
+use fieldstone::catalogue::Combination;
 use fieldstone::scene::Node;
 use rayon::prelude::*;
 use samples::{Dice, in_space, instances, leaves, modifiers, nodes, placed};
@@ -84,23 +85,27 @@ fn modified_by_entry(
     all
 }
 
+/// Every ordered pair as hard sets and by some of the blends, so that each blend meets all shapes in all its uses.
 fn combined() -> Vec<(String, Arc<Node>)> {
     let leaves = instances(1);
+    let skip = if leaves.len() < 8 { 1 } else { 12 };
     let mut all = Vec::new();
     for (i, (a_name, a)) in leaves.iter().enumerate() {
         for (j, (b_name, b)) in leaves.iter().enumerate() {
-            for (operation_name, operation) in Operation::ALL {
-                for blend in [
-                    AnyBlend::HARD,
-                    samples::smooth(0.05 + 0.05 * ((i + j) % 5) as f64),
-                ] {
-                    let name = format!("{operation_name}({a_name}, {b_name}, {})", blend.name());
-                    if let Ok(node) = Node::combination(
-                        Combination { operation, blend },
-                        vec![a.clone(), b.clone()],
-                    ) {
-                        all.push((name, node));
-                    }
+            let mut dice = Dice::new(3000 + (i * leaves.len() + j) as u64);
+            let uses = samples::blends(&mut dice).into_iter().flat_map(|blend| {
+                samples::operations(&blend)
+                    .into_iter()
+                    .map(move |o| (o, blend.clone()))
+            });
+            for (k, (operation, blend)) in uses.enumerate() {
+                if !blend.is_hard() && !(i + 5 * j + k).is_multiple_of(skip) {
+                    continue;
+                }
+                let combination = Combination { operation, blend };
+                let name = format!("{operation:?}({a_name}, {b_name}, {:?})", combination.blend);
+                if let Ok(node) = Node::combination(combination, vec![a.clone(), b.clone()]) {
+                    all.push((name, node));
                 }
             }
         }

@@ -57,7 +57,10 @@ fn argument(parameter: &Parameter, dice: &mut Dice) -> Argument {
         .low
         .max(-1.0)
         .max(if range.includes_low { f64::MIN } else { 0.1 });
-    let high = range.high.min(1.2);
+    let high = range.high.min(match parameter.kind {
+        Kind::Count => 6.0,
+        _ => 1.2,
+    });
     let mut number = || dice.between(low, high);
     match parameter.kind {
         Kind::Number => Argument::Number(number()),
@@ -178,8 +181,20 @@ pub fn modifiers(dice: &mut Dice) -> Vec<AnyModifier> {
         .collect()
 }
 
-pub fn smooth(k: f64) -> AnyBlend {
-    AnyBlend::Smooth(Smooth::new(k))
+/// One random instance of every blend.
+pub fn blends(dice: &mut Dice) -> Vec<AnyBlend> {
+    tried(AnyBlend::DECLARATIONS)
+        .iter()
+        .map(|d| AnyBlend::from_arguments(d.name, &arguments(d, dice)).expect("listed by name"))
+        .collect()
+}
+
+/// What a blend can be used for.
+pub fn operations(blend: &AnyBlend) -> Vec<Operation> {
+    match blend.manner() {
+        Manner::Seam => Operation::ALL.map(|(_, operation)| operation).to_vec(),
+        Manner::Pair | Manner::Several => vec![Operation::Joint],
+    }
 }
 
 /// A random tree of a few operations, named by its seed.
@@ -200,15 +215,21 @@ fn branch(dice: &mut Dice, leaves: &[(String, Arc<Node>)], depth: u32) -> Option
         let modifier = all[dice.below(all.len())].clone();
         return Node::modifier(modifier, child.clone()).ok().or(Some(child));
     }
-    let children: Option<Vec<_>> = (0..2 + dice.below(2))
-        .map(|_| branch(dice, leaves, depth - 1))
-        .collect();
     let blend = if dice.unit() < 0.5 {
         AnyBlend::HARD
     } else {
-        smooth(dice.between(0.05, 0.4))
+        let all = blends(dice);
+        all[dice.below(all.len())].clone()
     };
-    let operation = Operation::ALL[dice.below(3)].1;
+    let count = match blend.manner() {
+        Manner::Pair => 2,
+        Manner::Seam | Manner::Several => 2 + dice.below(2),
+    };
+    let children: Option<Vec<_>> = (0..count)
+        .map(|_| branch(dice, leaves, depth - 1))
+        .collect();
+    let all = operations(&blend);
+    let operation = all[dice.below(all.len())];
     Node::combination(Combination { operation, blend }, children?).ok()
 }
 

@@ -6,7 +6,7 @@
 
 use super::ascent::{Effort, highest};
 use super::laws::{slope_at, surroundings};
-use super::samples::{Dice, arguments, leaf, leaves, tried};
+use super::samples::{Dice, arguments, blends, leaf, leaves, operations, tried};
 use fieldstone::catalogue::*;
 use fieldstone::scene::Node;
 use rayon::prelude::*;
@@ -189,25 +189,24 @@ fn of_blend(combination: &Combination, dice: &mut Dice) -> f64 {
 }
 
 fn of_blends(slacks: &mut Slacks) {
-    for d in AnyBlend::DECLARATIONS {
-        for seed in 0..3 {
-            let mut dice = Dice::new(seed);
-            let blend =
-                AnyBlend::from_arguments(d.name, &arguments(d, &mut dice)).expect("listed by name");
-            for (word, operation) in Operation::ALL {
-                let combination = Combination {
-                    operation,
-                    blend: blend.clone(),
-                };
-                let name = format!("{word} {blend:?}");
-                note(
-                    slacks,
-                    (d.name, None),
-                    of_blend(&combination, &mut dice),
-                    name,
-                );
-            }
-        }
+    let all: Vec<_> = (0..3)
+        .into_par_iter()
+        .flat_map_iter(|seed| blends(&mut Dice::new(seed)))
+        .flat_map_iter(|blend| {
+            let uses = operations(&blend);
+            uses.into_iter().map(move |operation| Combination {
+                operation,
+                blend: blend.clone(),
+            })
+        })
+        .map(|combination| {
+            let slack = of_blend(&combination, &mut Dice::new(1));
+            (combination, slack)
+        })
+        .collect();
+    for (combination, slack) in all {
+        let name = format!("{combination:?}");
+        note(slacks, (combination.blend.name(), None), slack, name);
     }
 }
 

@@ -220,7 +220,7 @@ fn no_convex_shape_shadows_itself() {
         Node::modifier(AnyModifier::Offset(Offset::new(0.3)), sphere(0.7, [0.0; 3])).unwrap(),
         leaf(AnyPrimitive::Ellipsoid(Ellipsoid::new([1.0, 0.3, 0.6]))),
         leaf(AnyPrimitive::Cuboid(Cuboid::new([1.2, 0.9, 1.0], 0.1))),
-        leaf(AnyPrimitive::Cylinder(Cylinder::new(0.7, 1.0))),
+        leaf(AnyPrimitive::Cylinder(Cylinder::new(0.7, 1.0, 0.0))),
         sphere(1.0, [0.0; 3]),
     ];
     let matt = Arc::new(Material {

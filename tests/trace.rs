@@ -85,7 +85,7 @@ fn zoo() -> Vec<(&'static str, Arc<Node>)> {
         ("round box", tilted(&cuboid([1.0, 0.8, 1.2], 0.1))),
         (
             "cylinder",
-            tilted(&leaf(AnyPrimitive::Cylinder(Cylinder::new(0.5, 1.2)))),
+            tilted(&leaf(AnyPrimitive::Cylinder(Cylinder::new(0.5, 1.2, 0.0)))),
         ),
         (
             "cone",

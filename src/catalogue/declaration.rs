@@ -131,6 +131,16 @@ impl Range {
     };
     /// Zero or above.
     pub const NOT_NEGATIVE: Self = Self::closed(0.0, f64::MAX);
+    /// Above zero, infinity too.
+    pub const POSITIVE_OR_INFINITE: Self = Self {
+        high: f64::INFINITY,
+        ..Self::POSITIVE
+    };
+    /// Above zero, a full turn at most, in radians.
+    pub const ANGLE: Self = Self {
+        high: std::f64::consts::TAU,
+        ..Self::POSITIVE
+    };
     /// Zero or above, infinity too.
     pub const COUNT: Self = Self::closed(0.0, f64::INFINITY);
 

@@ -17,6 +17,7 @@ mod plane_geometry;
 mod primitive;
 mod profiles;
 mod solids;
+mod space_geometry;
 
 pub use blend::{Blend, Manner};
 pub use blends::{
@@ -37,8 +38,9 @@ pub use modifiers::{
 pub use primitive::Primitive;
 pub use profiles::{Circle, Polygon, Rectangle, Ring, Segment};
 pub use solids::{
-    BoxFrame, CappedCone, Capsule, Cone, Cuboid, Cylinder, Ellipsoid, Link, Plane, Slab, Sphere,
-    Torus, Triangle,
+    BoxFrame, CappedCone, CappedTorus, Capsule, Cone, Cuboid, CutSphere, Cylinder, Dodecahedron,
+    Ellipsoid, Helix, Icosahedron, Lens, Link, Octahedron, Plane, Prism, Pyramid, Quad, Rod,
+    RoundCone, Slab, SolidAngle, Sphere, Spindle, Tetrahedron, Torus, Triangle, Tube,
 };
 
 declaration::list!($
@@ -46,7 +48,8 @@ declaration::list!($
     AnyPrimitive, with_primitive, with_compiled_primitive, with_recorded_primitive:
     Sphere, Ellipsoid, Cuboid, Plane, Triangle, Cylinder, Cone, Capsule, Torus, BoxFrame, Slab, CappedCone,
     Circle, Rectangle, Polygon;
-    recorded Link, Ring, Segment
+    recorded Link, Rod, RoundCone, CappedTorus, CutSphere, SolidAngle, Lens, Spindle, Prism, Pyramid, Tetrahedron, Octahedron, Dodecahedron, Icosahedron, Quad, Tube, Helix,
+    Ring, Segment
 );
 
 declaration::list!($

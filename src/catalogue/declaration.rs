@@ -90,6 +90,8 @@ pub enum Kind {
     Axis,
     /// A list of vectors with two components.
     Points,
+    /// A list of vectors with three components.
+    Points3,
 }
 
 impl Kind {
@@ -105,6 +107,7 @@ impl Kind {
             Self::Direction => "a direction [x, y, z] or \"x\", \"y\", \"z\"",
             Self::Axis => "an axis: \"x\", \"y\" or \"z\"",
             Self::Points => "a list of points [[x, y], ...]",
+            Self::Points3 => "a list of points [[x, y, z], ...]",
         }
     }
 }
@@ -189,6 +192,8 @@ pub enum Argument {
     Axis(usize),
     /// For [`Kind::Points`].
     Points(Vec<[f64; 2]>),
+    /// For [`Kind::Points3`].
+    Points3(Vec<[f64; 3]>),
 }
 
 impl Argument {
@@ -200,6 +205,7 @@ impl Argument {
             Self::Vector3(v) => v.to_vec(),
             Self::Axis(_) => vec![],
             Self::Points(points) => points.iter().flatten().copied().collect(),
+            Self::Points3(points) => points.iter().flatten().copied().collect(),
         }
     }
 }
@@ -218,6 +224,10 @@ impl fmt::Display for Argument {
             Self::Vector3(v) => write!(f, "{}", list(v)),
             Self::Axis(i) => write!(f, "\"{}\"", AXES[*i]),
             Self::Points(points) => {
+                let words: Vec<_> = points.iter().map(|p| list(p)).collect();
+                write!(f, "[{}]", words.join(", "))
+            }
+            Self::Points3(points) => {
                 let words: Vec<_> = points.iter().map(|p| list(p)).collect();
                 write!(f, "[{}]", words.join(", "))
             }
@@ -300,6 +310,18 @@ impl Parametric for Vec<[f64; 2]> {
     }
     fn to_argument(&self, _: Kind) -> Argument {
         Argument::Points(self.clone())
+    }
+}
+
+impl Parametric for Vec<[f64; 3]> {
+    fn from_argument(argument: &Argument) -> Option<Self> {
+        match argument {
+            Argument::Points3(points) => Some(points.clone()),
+            _ => None,
+        }
+    }
+    fn to_argument(&self, _: Kind) -> Argument {
+        Argument::Points3(self.clone())
     }
 }
 

@@ -9,10 +9,12 @@ mod blends;
 mod bounds;
 mod combination;
 pub(crate) mod declaration;
+mod enclosure;
 mod facts;
 mod function;
 mod modifier;
 mod modifiers;
+mod periodic;
 mod plane_geometry;
 mod primitive;
 mod profiles;
@@ -38,9 +40,10 @@ pub use modifiers::{
 pub use primitive::Primitive;
 pub use profiles::{Circle, Polygon, Rectangle, Ring, Segment};
 pub use solids::{
-    BoxFrame, CappedCone, CappedTorus, Capsule, Cone, Cuboid, CutSphere, Cylinder, Dodecahedron,
-    Ellipsoid, Helix, Icosahedron, Lens, Link, Octahedron, Plane, Prism, Pyramid, Quad, Rod,
-    RoundCone, Slab, SolidAngle, Sphere, Spindle, Tetrahedron, Torus, Triangle, Tube,
+    Blob, BoxFrame, CappedCone, CappedTorus, Capsule, Cone, Cuboid, CutSphere, Cylinder,
+    Dodecahedron, Ellipsoid, Gyroid, Helix, Icosahedron, Julia, Lens, Link, Menger, Octahedron,
+    Plane, Prism, Pyramid, Quad, Rod, RoundCone, SchwarzD, SchwarzP, Sierpinski, Slab, SolidAngle,
+    Sphere, Spindle, Superellipsoid, Tetrahedron, Torus, Triangle, Tube,
 };
 
 declaration::list!($
@@ -49,7 +52,8 @@ declaration::list!($
     Sphere, Ellipsoid, Cuboid, Plane, Triangle, Cylinder, Cone, Capsule, Torus, BoxFrame, Slab, CappedCone,
     Circle, Rectangle, Polygon;
     recorded Link, Rod, RoundCone, CappedTorus, CutSphere, SolidAngle, Lens, Spindle, Prism, Pyramid, Tetrahedron, Octahedron, Dodecahedron, Icosahedron, Quad, Tube, Helix,
-    Ring, Segment
+    Ring, Segment,
+    Gyroid, SchwarzP, SchwarzD, Superellipsoid, Menger, Sierpinski, Julia, Blob
 );
 
 declaration::list!($

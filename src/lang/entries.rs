@@ -272,6 +272,13 @@ fn converted(value: &Value, parameter: &Parameter, is_planar: bool) -> Option<Ar
             });
             Argument::Points(points.collect::<Option<_>>()?)
         }
+        (Kind::Points3, Value::List(list)) => {
+            let points = list.items.iter().map(|item| match item {
+                Value::Vector3(v) => Some(*v),
+                _ => None,
+            });
+            Argument::Points3(points.collect::<Option<_>>()?)
+        }
         _ => return None,
     })
 }

@@ -4,6 +4,7 @@
 
 mod ascent;
 mod blends;
+mod implicit;
 mod laws;
 mod samples;
 mod tightness;

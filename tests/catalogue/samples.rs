@@ -71,6 +71,10 @@ fn argument(parameter: &Parameter, dice: &mut Dice) -> Argument {
         Kind::Direction => Argument::Vector3([number() + 0.01, number(), number()]),
         Kind::Axis => Argument::Axis(dice.below(3)),
         Kind::Points => Argument::Points(star(dice)),
+        Kind::Points3 => {
+            let points = (0..1 + dice.below(5)).map(|_| dice.point(&Bounds::centred([0.8; 3])));
+            Argument::Points3(points.collect())
+        }
     }
 }
 

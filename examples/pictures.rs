@@ -1,9 +1,10 @@
 //! Renders what the repository shows: `cargo run --release --example pictures [NAME ...]`.
 //!
 //! For every script `examples/NAME.sdf` the picture beside it and a thumbnail in `docs/thumbnails`; the picture of the README's
-//! first script; and `docs/hero.png`: one scene cut diagonally, the shaded picture above the steps that each ray took.
+//! first script; `docs/hero.png`: one scene cut diagonally, the shaded picture above the steps that each ray took; and for
+//! every entry of the catalogue `docs/reference/NAME.png`. The names of these are `reference/NAME`, or `reference` for all.
 
-use fieldstone::lang::load;
+use fieldstone::lang::{Loaded, Word, load, load_text};
 use fieldstone::output::{Metadata, encode, heat, picture, write};
 use fieldstone::render::{Channel, Film, RenderOptions, render};
 use fieldstone::trace::{SceneTracer, World};
@@ -33,6 +34,11 @@ impl Shown {
             load(path, &[], &SceneTracer::default()).map_err(|error| error.to_string())?;
         let settings = &mut loaded.scene.settings;
         settings.samples = samples.unwrap_or(settings.samples);
+        let source = path.file_name().unwrap_or_default().to_string_lossy();
+        Self::of(&loaded, &source, channels)
+    }
+
+    fn of(loaded: &Loaded, source: &str, channels: &[Channel]) -> Outcome<Self> {
         let world = World::new(&loaded.scene).map_err(|fault| fault.message)?;
         let options = RenderOptions {
             channels,
@@ -44,11 +50,10 @@ impl Shown {
             return Err(format!("{unknown} pixels are unknown").into());
         }
         let beauty = picture(&done.film, Channel::Beauty).ok_or("beauty was recorded")?;
-        let source = path.file_name().unwrap_or_default().to_string_lossy();
         Ok(Self {
             film: done.film,
             beauty: beauty.image,
-            metadata: Metadata::new(&source, &loaded.parameters, &loaded.scene.settings),
+            metadata: Metadata::new(source, &loaded.parameters, &loaded.scene.settings),
         })
     }
 
@@ -66,6 +71,15 @@ fn example(path: &Path) -> Outcome<()> {
     let small = resize(&shown.beauty, THUMBNAIL, height, FilterType::Lanczos3);
     let name = picture.file_name().unwrap_or_default();
     shown.write(&small, &Path::new("docs/thumbnails").join(name))
+}
+
+/// The picture of an entry of the catalogue; its source is the example.
+fn entry(word: &Word, scene: &str) -> Outcome<()> {
+    let loaded = load_text(word.name, scene, &[], &SceneTracer::default())
+        .map_err(|report| report.to_string())?;
+    let shown = Shown::of(&loaded, word.example, &[Channel::Beauty])?;
+    let path = format!("docs/reference/{}.png", word.name);
+    shown.write(&shown.beauty, Path::new(&path))
 }
 
 fn first() -> Outcome<()> {
@@ -171,9 +185,10 @@ fn scripts() -> Outcome<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// Does `work` and says so, if `name` is wanted.
+/// Does `work` and says so, if `name` or its folder is wanted.
 fn draw(wanted: &[String], name: &str, work: impl FnOnce() -> Outcome<()>) -> Outcome<()> {
-    if wanted.is_empty() || wanted.iter().any(|w| w == name) {
+    let folder = name.split('/').next();
+    if wanted.is_empty() || wanted.iter().any(|w| w == name || Some(&w[..]) == folder) {
         work().map_err(|error| format!("{name}: {error}"))?;
         println!("{name}");
     }
@@ -183,10 +198,18 @@ fn draw(wanted: &[String], name: &str, work: impl FnOnce() -> Outcome<()>) -> Ou
 fn main() -> Outcome<()> {
     let wanted: Vec<String> = std::env::args().skip(1).collect();
     std::fs::create_dir_all("docs/thumbnails")?;
+    std::fs::create_dir_all("docs/reference")?;
     for path in scripts()? {
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         draw(&wanted, &name, || example(&path))?;
     }
     draw(&wanted, "first", first)?;
-    draw(&wanted, "hero", hero)
+    draw(&wanted, "hero", hero)?;
+    for word in Word::all() {
+        if let Some(scene) = word.scene() {
+            let name = format!("reference/{}", word.name);
+            draw(&wanted, &name, || entry(&word, &scene))?;
+        }
+    }
+    Ok(())
 }

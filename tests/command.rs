@@ -722,6 +722,7 @@ fn help_has_examples_and_exit_codes() {
         "eval",
         "trace",
         "test",
+        "reference",
         "completions",
     ];
     for name in names {

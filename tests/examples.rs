@@ -1,16 +1,13 @@
 //! Every example is what it promises: short, free of warnings, certain of every pixel, with its picture beside it.
 
-use fieldstone::lang::{Loaded, load, load_text};
-use fieldstone::output::picture;
-use fieldstone::render::{Channel, RenderOptions, render};
-use fieldstone::trace::{SceneTracer, World};
-use image::imageops::{FilterType, resize};
-use image::{ImageReader, RgbImage};
-use std::path::{Path, PathBuf};
+mod pictures;
 
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
+use fieldstone::lang::{Loaded, load, load_text};
+use fieldstone::trace::SceneTracer;
+use image::RgbImage;
+use image::imageops::{FilterType, resize};
+use pictures::{root, stored, text_of};
+use std::path::{Path, PathBuf};
 
 fn scripts() -> Vec<PathBuf> {
     let entries = std::fs::read_dir(root().join("examples")).expect("the examples");
@@ -29,11 +26,6 @@ fn loaded(path: &Path) -> Loaded {
         Ok(loaded) => loaded,
         Err(error) => panic!("{}: {error}", path.display()),
     }
-}
-
-fn stored(path: &Path) -> RgbImage {
-    let image = ImageReader::open(path).unwrap_or_else(|_| panic!("{} is missing", path.display()));
-    image.decode().expect("a readable picture").to_rgb8()
 }
 
 #[test]
@@ -90,12 +82,7 @@ fn rendered(path: &Path, samples: Option<u32>) -> RgbImage {
     let settings = &mut loaded.scene.settings;
     settings.size = settings.size.map(|side| side / SHRINK);
     settings.samples = samples.unwrap_or(settings.samples);
-    let world = World::new(&loaded.scene).expect("a world");
-    let done = render(&loaded.scene, &world, &RenderOptions::default());
-    let unknown = done.statistics.unknown_pixels;
-    assert_eq!(unknown, 0, "{}: unknown pixels", path.display());
-    let beauty = picture(&done.film, Channel::Beauty);
-    beauty.expect("beauty was recorded").image
+    pictures::rendered(&path.display().to_string(), &loaded)
 }
 
 /// How far the pictures are apart, of 255, on the average over the points `within` (places in [0, 1]) after both are scaled
@@ -174,10 +161,6 @@ fn pictures_of_the_readme_are_not_stale() {
 #[test]
 fn pictures_tell_how_they_were_made() {
     for path in scripts() {
-        let file = std::fs::File::open(path.with_extension("png")).expect("a picture");
-        let decoder = png::Decoder::new(std::io::BufReader::new(file));
-        let reader = decoder.read_info().expect("a PNG");
-        let texts = &reader.info().uncompressed_latin1_text;
         let name = path.file_name().expect("a name").to_string_lossy();
         let expected = [
             ("Software", "fieldstone "),
@@ -185,8 +168,8 @@ fn pictures_tell_how_they_were_made() {
             ("Settings", "size=640x"),
         ];
         for (keyword, part) in expected {
-            let found = texts.iter().find(|text| text.keyword == keyword);
-            let says = found.is_some_and(|text| text.text.starts_with(part));
+            let found = text_of(&path.with_extension("png"), keyword);
+            let says = found.is_some_and(|text| text.starts_with(part));
             assert!(says, "{name}: {keyword}");
         }
     }

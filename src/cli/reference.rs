@@ -118,23 +118,22 @@ fn made_with<'a>(node: &'a Arc<Node>, name: &str) -> Option<&'a Arc<Node>> {
         .find_map(|child| made_with(child, name))
 }
 
-/// The class in the words that `explain` has for it.
-fn class_in_words(class: Class) -> String {
-    format!("{}: {}", class.word(), class.meaning())
+/// What values a parameter takes.
+fn values_in_words(parameter: &Parameter) -> String {
+    let noun = parameter.kind.noun();
+    match parameter.kind {
+        Kind::Axis => noun.into(),
+        Kind::Direction => format!("{noun}, not zero"),
+        _ => format!("{noun}, {}", parameter.range_words()),
+    }
 }
 
-/// What values a parameter takes, and which it has when it is left out.
-fn values_in_words(parameter: &Parameter) -> (String, String) {
-    let range = match parameter.kind {
-        Kind::Axis => String::new(),
-        Kind::Direction => ", not zero".into(),
-        _ => format!(", {}", parameter.range_words()),
-    };
-    let default = match parameter.default_in_words() {
-        Some(default) => format!("default {default}"),
+/// Which value it has when it is left out, in `quotes`.
+fn default_in_words(parameter: &Parameter, quotes: &str) -> String {
+    match parameter.default_in_words() {
+        Some(default) => format!("default {quotes}{default}{quotes}"),
         None => "must be given".into(),
-    };
-    (format!("{}{range}", parameter.kind.noun()), default)
+    }
 }
 
 /// All words, group by group, with the first sentence of each.
@@ -187,7 +186,8 @@ fn in_words(word: &Word) -> String {
         .max()
         .unwrap_or(0);
     for (i, parameter) in word.parameters.iter().enumerate() {
-        let (values, default) = values_in_words(parameter);
+        let values = values_in_words(parameter);
+        let default = default_in_words(parameter, "");
         let head = format!("  {:width$}  ", parameter.name);
         text.push_str(if i == 0 { "\n" } else { "" });
         text.push_str(&wrapped(&head, &format!("{values}; {default}")));
@@ -213,7 +213,8 @@ fn facts(word: &Word) -> Vec<(&'static str, String)> {
         } else {
             ""
         };
-        facts.push(("class", format!("{}{note}", class_in_words(known.class))));
+        let (class, meaning) = (known.class.word(), known.class.meaning());
+        facts.push(("class", format!("{class}{note}: {meaning}")));
         facts.push(("lipschitz", format!("{}{note}", short(known.lipschitz))));
         if known.rule != word.source {
             facts.push(("rule", known.rule.into()));
@@ -292,36 +293,45 @@ fn link(word: &Word) -> String {
     format!("[{0}](#{0})", word.name)
 }
 
+/// The text without what Markdown takes for more than text.
+fn escaped(text: &str) -> String {
+    let text = text.trim().replace('|', "\\|").replace('*', "\\*");
+    text.replace('<', "&lt;")
+}
+
 /// Functions with what they give.
 fn table(words: &[&Word]) -> String {
     let mut text = String::from("| function | gives |\n|---|---|\n");
     for word in words {
-        text.push_str(&format!("| `{}` | {} |\n", word.signature, word.summary));
+        let gives = escaped(&word.summary);
+        text.push_str(&format!("| `{}` | {gives} |\n", word.signature));
     }
     text
 }
 
 /// An entry with its picture.
 fn section(word: &Word) -> String {
-    let name = word.name;
+    let (name, summary) = (word.name, escaped(&word.summary));
+    let image = format!("src=\"reference/{name}.png\" alt=\"{name}\" width=\"160\" height=\"120\"");
+    let signature = &word.signature;
     let mut text = format!(
-        "\n### {name}\n\n<img src=\"reference/{name}.png\" alt=\"{name}\" width=\"160\" height=\"120\" align=\"right\">\n\n\
-         {}\n\n    {}\n\n",
-        word.summary, word.signature
+        "\n### {name}\n\n<img {image} align=\"right\">\n\n{summary}\n\n    {signature}\n\n"
     );
     for parameter in word.parameters {
-        let (values, default) = values_in_words(parameter);
-        let summary = parameter.summary.trim();
+        let values = escaped(&values_in_words(parameter));
+        let default = default_in_words(parameter, "`");
+        let summary = escaped(parameter.summary);
         text.push_str(&format!(
             "- `{}`: {values}; {default}. {summary}\n",
             parameter.name
         ));
     }
     for (name, fact) in facts(word) {
-        let fact = if name == "example" {
-            format!("`{fact}`")
-        } else {
-            fact
+        let fact = match name {
+            "example" => format!("`{fact}`"),
+            // The head of the page has the meanings.
+            "class" => fact.split(':').next().unwrap_or_default().into(),
+            _ => escaped(&fact),
         };
         text.push_str(&format!("- *{name}*: {fact}\n"));
     }

@@ -52,6 +52,8 @@ pub struct Word {
     pub signature: String,
     /// What it gives, in one or two sentences.
     pub summary: String,
+    /// How many shapes a call of it takes at most before its parameters; the shape before a point does not count.
+    pub operands: usize,
     /// Its parameters in positional order; none are known of functions and combinations.
     pub parameters: &'static [Parameter],
     /// Where its formula and its Lipschitz rule come from; may be empty.
@@ -112,6 +114,7 @@ impl Word {
             group,
             signature: String::new(),
             summary: String::new(),
+            operands: 0,
             parameters: &[],
             source: "",
             example: "",
@@ -156,15 +159,16 @@ impl Word {
     fn blend(declaration: &Declaration) -> Self {
         let blend = defaults(declaration)
             .and_then(|arguments| AnyBlend::from_arguments(declaration.name, &arguments));
-        let shapes = match blend.map(|blend| blend.manner()) {
+        let (shapes, operands) = match blend.map(|blend| blend.manner()) {
             None | Some(Manner::Seam) => return Self::entry(declaration, Group::Blend),
-            Some(Manner::Pair) => "a, b",
-            Some(Manner::Several) => "a, b, ...",
+            Some(Manner::Pair) => ("a, b", 2),
+            Some(Manner::Several) => ("a, b, ...", usize::MAX),
         };
         let arguments = arguments(declaration);
         let comma = if arguments.is_empty() { "" } else { ", " };
         Self {
             signature: format!("{}({shapes}{comma}{arguments})", declaration.name),
+            operands,
             ..Self::entry(declaration, Group::Combination)
         }
     }
@@ -178,6 +182,7 @@ impl Word {
             ),
             summary: operation.summary().into(),
             example: operation.example(),
+            operands: usize::MAX,
             ..Self::named(operation.name(), Group::Combination)
         }
     }

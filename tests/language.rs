@@ -381,6 +381,67 @@ fn rays_can_be_asked() {
 }
 
 #[test]
+fn noise_is_bounded_by_its_known_slope() {
+    holds(
+        "field n(p) { return noise(p * 4) }\n\
+         field far(p) { return noise(p * 4 + [1000, 2000, 3000]) }\n\
+         field v(p) { return voronoi(p * 3) }\n\
+         field sum(p) { return fbm(p, octaves: 3, gain: 0.5, lacunarity: 3) }",
+        &[
+            "noise([3, -2, 7]) == 0",
+            "noise([0.3, 0.6]) == noise([0.3, 0.6, 0])",
+            "abs(noise([0.3, 0.6, 0.1]) - noise([289.3, -288.4, 0.1])) < 1e-12",
+            "fbm([0.3, 0.6, 0.1], octaves: 1) == noise([0.3, 0.6, 0.1])",
+            "n.at([0.1, 0.2, 0.3]) == noise([0.4, 0.8, 1.2])",
+            // The point of the own cell is in [1/8, 7/8] along x and y, in [3/16, 13/16] along z.
+            "voronoi([0.5, 0.5, 0.5]) <= sqrt(0.75^2 + 0.75^2 + 0.625^2) / 2",
+            // 3.75 times the frequency, also on all of space.
+            "n.lipschitz <= 15.000001",
+            "(n & box(4)).lipschitz <= 15.000001",
+            "far.lipschitz <= 15.000001",
+            "v.lipschitz <= 3.000001",
+            // 3.75 (1 + 1.5 + 2.25)
+            "sum.lipschitz <= 17.812501",
+        ],
+    );
+}
+
+#[test]
+fn patterns_of_noise_are_mixtures_of_their_colours() {
+    let mixtures = [
+        "marble(0, 1)",
+        "wood(0, 1, width: 0.3)",
+        "marble(0, 1, 2, 3)",
+    ];
+    for pattern in mixtures {
+        holds(
+            &format!(
+                "let pattern_ = {pattern}\n\
+                 let shares = for i in 0..200 {{ pattern_([rand(1, i), 4 * rand(2, i), 9 * rand(3, i)]) }}"
+            ),
+            &[
+                "min(shares) >= 0",
+                "max(shares) <= 1",
+                "min(shares) < 0.1",
+                "max(shares) > 0.6",
+            ],
+        );
+    }
+    let message = errors("material m { color: marble(#fff, 1) }\nshow sphere(1).paint(m)");
+    assert!(
+        message.contains("`marble` expects a colour here"),
+        "{message}"
+    );
+    let message = errors("let x = fbm([0, 0, 0], octaves: 2.5)");
+    assert!(
+        message.contains("must be a whole number up to 20"),
+        "{message}"
+    );
+    let message = errors("let x = noise(3)");
+    assert!(message.contains("`noise` expects a point"), "{message}");
+}
+
+#[test]
 fn random_numbers_depend_on_their_arguments_alone() {
     holds(
         "let xs = for i in 0..1000 { rand(1, i) }",

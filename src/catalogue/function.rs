@@ -1,6 +1,6 @@
 //! Elementary functions of numbers, for expressions, fields and patterns.
 
-use crate::num::Number;
+use crate::num::{Lattice, Number};
 
 macro_rules! functions {
     ($( $(#[doc = $doc:literal])+ $variant:ident = $name:literal ($($arg:ident),+) $body:expr; )+) => {
@@ -104,9 +104,22 @@ functions! {
     Norm3 = "norm3" (x, y, z) N::norm3(x, y, z);
     /// What is left of x above the largest multiple of m that is not above it.
     Modulo = "mod" (x, m) x - m * (x / m).floor();
+    /// Gradient noise at (x, y, z): between -1.037 and 1.037, zero at whole numbers, of slope at most 3.75.
+    Noise3 = "noise3" (x, y, z) N::lattice(Lattice::Noise, x, y, z);
+    /// The distance of (x, y, z) from the nearest of points scattered one in every cell of size 1.
+    Voronoi3 = "voronoi3" (x, y, z) N::lattice(Lattice::Voronoi, x, y, z);
 }
 
 impl Function {
+    /// How many plain operations it takes, about.
+    pub fn work(self) -> u64 {
+        match self {
+            Self::Noise3 => 64,
+            Self::Voronoi3 => 256,
+            _ => 1,
+        }
+    }
+
     /// The function that scripts call `name`.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|f| f.name() == name)

@@ -25,9 +25,12 @@ pub(super) enum Intrinsic {
     Cross,
     Distance,
     Dot,
+    Fbm,
     Gradient,
     Len,
     Length,
+    Marble,
+    Noise,
     Normalize,
     Paint,
     Rand,
@@ -37,11 +40,13 @@ pub(super) enum Intrinsic {
     Stripes,
     Sum,
     Trace,
+    Voronoi,
+    Wood,
 }
 
 impl Intrinsic {
     /// Every one with its name, its arguments (a `?` marks those that may be left out), and what it gives.
-    pub const ALL: [(&'static str, Self, &'static str, &'static str); 18] = [
+    pub const ALL: [(&'static str, Self, &'static str, &'static str); 23] = [
         (
             "at",
             Self::At,
@@ -69,6 +74,12 @@ impl Intrinsic {
         ),
         ("dot", Self::Dot, "a, b", "the scalar product"),
         (
+            "fbm",
+            Self::Fbm,
+            "p, octaves?, gain?, lacunarity?",
+            "the sum of `octaves` (4) of noise, each `lacunarity` (2) times as fine and `gain` (0.5) times as high as the one before",
+        ),
+        (
             "gradient",
             Self::Gradient,
             "a, b, from?, to?",
@@ -85,6 +96,18 @@ impl Intrinsic {
             Self::Length,
             "v",
             "the Euclidean length of a vector",
+        ),
+        (
+            "marble",
+            Self::Marble,
+            "a, b, size?, turbulence?",
+            "a pattern of stone `a` with veins of `b`, `size` (1) apart and bent by `turbulence` (1)",
+        ),
+        (
+            "noise",
+            Self::Noise,
+            "p",
+            "gradient noise at a point: between -1.037 and 1.037, zero at whole points, of slope at most 3.75",
         ),
         (
             "normalize",
@@ -129,6 +152,18 @@ impl Intrinsic {
             Self::Trace,
             "origin, direction",
             "what a ray finds first: `.hit .t .point .normal .steps .evaluations .verdict`",
+        ),
+        (
+            "voronoi",
+            Self::Voronoi,
+            "p",
+            "the distance to the nearest of points that lie scattered one in every cell of size 1",
+        ),
+        (
+            "wood",
+            Self::Wood,
+            "a, b, width?, turbulence?",
+            "a pattern of rings around the y axis, `width` (0.1) apart, from early wood `a` to late wood `b`, bent by `turbulence` (1)",
         ),
     ];
 

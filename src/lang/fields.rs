@@ -57,7 +57,9 @@ impl<'a> Machine<'a> {
                 .unwrap_or(0),
             PatternKind::Checker { a, b, .. }
             | PatternKind::Stripes { a, b, .. }
-            | PatternKind::Gradient { a, b, .. } => a.depth().max(b.depth()),
+            | PatternKind::Gradient { a, b, .. }
+            | PatternKind::Marble { a, b, .. }
+            | PatternKind::Wood { a, b, .. } => a.depth().max(b.depth()),
         };
         let depth = inside + 1;
         if depth > MAX_LIST_DEPTH {
@@ -261,6 +263,24 @@ impl<'a> Machine<'a> {
                 let share = self.apply(Function::Clamp, &[along, bounds[0], bounds[1]]);
                 self.mixed(share, (a, b), point, at)
             }
+            PatternKind::Marble {
+                a,
+                b,
+                size,
+                turbulence,
+            } => {
+                let share = self.marble_share(point, *size, *turbulence);
+                self.mixed(share, (a, b), point, at)
+            }
+            PatternKind::Wood {
+                a,
+                b,
+                width,
+                turbulence,
+            } => {
+                let share = self.wood_share(point, *width, *turbulence);
+                self.mixed(share, (a, b), point, at)
+            }
         }
     }
 
@@ -329,7 +349,7 @@ impl<'a> Machine<'a> {
         };
         let Some((form, count)) = Self::joined_form(&x, &y) else {
             let message = format!(
-                "a gradient needs two colours or two numbers, not {} and {}",
+                "a pattern needs two colours or two numbers, not {} and {}",
                 a.noun(),
                 b.noun()
             );

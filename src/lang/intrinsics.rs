@@ -9,7 +9,7 @@ use super::numeric::Arithmetic;
 use super::report::Diagnostic;
 use super::source::Span;
 use super::value::{Form, PatternKind, Quantity, Scalar, Value};
-use crate::catalogue::AXES;
+use crate::catalogue::{AXES, Function};
 
 impl<'a> Machine<'a> {
     /// A function of the language itself.
@@ -72,6 +72,9 @@ impl<'a> Machine<'a> {
                 let length = self.length(v.scalars());
                 self.number(length, at)
             }
+            (Intrinsic::Noise, _) => self.lattice(Function::Noise3, &first, at),
+            (Intrinsic::Voronoi, _) => self.lattice(Function::Voronoi3, &first, at),
+            (Intrinsic::Fbm, octaves) => self.fbm_call(&first, [octaves, third, fourth], at),
             (Intrinsic::Normalize, _) => self.normalize(&first, at),
             (Intrinsic::Dot, Some(second)) => {
                 let (a, b) = self.vectors(&first, &second, "dot")?;
@@ -109,6 +112,34 @@ impl<'a> Machine<'a> {
                 let (a, b) = self.shades(first, b, "stripes")?;
                 let kind = PatternKind::Stripes { a, b, width, axis };
                 self.pattern(kind, at)
+            }
+            (Intrinsic::Marble, Some(b)) => {
+                let size = self.positive(third, "size", "marble")?;
+                let turbulence = self.positive(fourth, "turbulence", "marble")?;
+                let (a, b) = self.shades(first, b, "marble")?;
+                self.pattern(
+                    PatternKind::Marble {
+                        a,
+                        b,
+                        size,
+                        turbulence,
+                    },
+                    at,
+                )
+            }
+            (Intrinsic::Wood, Some(b)) => {
+                let width = self.positive_or(third, "width", "wood", 0.1)?;
+                let turbulence = self.positive(fourth, "turbulence", "wood")?;
+                let (a, b) = self.shades(first, b, "wood")?;
+                self.pattern(
+                    PatternKind::Wood {
+                        a,
+                        b,
+                        width,
+                        turbulence,
+                    },
+                    at,
+                )
             }
             (Intrinsic::Gradient, Some(b)) => {
                 let from = self.point_or(third, [0.0; 3], "gradient")?;
@@ -176,15 +207,26 @@ impl<'a> Machine<'a> {
     }
 
     fn positive(&mut self, given: Option<Given>, name: &str, callee: &str) -> Eval<f64> {
+        self.positive_or(given, name, callee, 1.0)
+    }
+
+    /// A positive number, `default` where none is given.
+    pub fn positive_or(
+        &mut self,
+        given: Option<Given>,
+        name: &str,
+        callee: &str,
+        default: f64,
+    ) -> Eval<f64> {
         let Some(given) = given else {
-            return Ok(1.0);
+            return Ok(default);
         };
         match given.value {
             Value::Number(x) if x > 0.0 && x.is_finite() => Ok(x),
             Value::Number(_) => {
                 let message = format!("`{name}` of `{callee}` must be positive");
                 let error = Diagnostic::error(given.span, message).label(given.value.shown());
-                self.fail(error.help("the default is 1"))
+                self.fail(error.help(format!("the default is {default}")))
             }
             _ => self.unfit(&given, callee, "a number"),
         }

@@ -25,6 +25,7 @@ mod load;
 mod machine;
 mod materials;
 mod members;
+mod noise;
 mod numeric;
 mod operators;
 mod program;

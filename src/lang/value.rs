@@ -114,6 +114,20 @@ pub(super) enum PatternKind {
         width: f64,
         axis: [f64; 3],
     },
+    /// Veins of `b`, `size` apart, bent by noise.
+    Marble {
+        a: Value,
+        b: Value,
+        size: f64,
+        turbulence: f64,
+    },
+    /// Rings around the y axis, `width` apart, bent by noise.
+    Wood {
+        a: Value,
+        b: Value,
+        width: f64,
+        turbulence: f64,
+    },
     /// From `a` to `b` along the way between two points.
     Gradient {
         a: Value,

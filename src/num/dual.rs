@@ -5,7 +5,7 @@
     reason = "the rules of differentiation mix operators"
 )]
 
-use super::Number;
+use super::{Lattice, Number};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A value and its derivatives with respect to `K` variables (forward automatic differentiation).
@@ -216,6 +216,19 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
         }
         Self {
             value: length,
+            partial,
+        }
+    }
+
+    #[inline(always)]
+    fn lattice(lattice: Lattice, x: Self, y: Self, z: Self) -> Self {
+        let [u, v, w] = N::lattice_slope(lattice, x.value, y.value, z.value);
+        let mut partial = x.partial;
+        for (d, (b, c)) in partial.iter_mut().zip(y.partial.into_iter().zip(z.partial)) {
+            *d = u * *d + v * b + w * c;
+        }
+        Self {
+            value: N::lattice(lattice, x.value, y.value, z.value),
             partial,
         }
     }

@@ -6,8 +6,8 @@
 //! for numbers only. A divisor 0 counts as positive, as squares, lengths and absolute values give it: 1 by [0, 1] is
 //! [1, inf], 1 by [-1, 0] is everything.
 
-use super::Number;
 use super::number::whole_power;
+use super::{Lattice, Number, lattice_range};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -479,6 +479,14 @@ impl Number for Interval {
             lo: fract.lo.max(0.0),
             hi: fract.hi.min(1.0),
         }
+    }
+
+    fn lattice(lattice: Lattice, x: Self, y: Self, z: Self) -> Self {
+        lattice_range::value(lattice, [x, y, z])
+    }
+
+    fn lattice_slope(lattice: Lattice, x: Self, y: Self, z: Self) -> [Self; 3] {
+        lattice_range::slope(lattice, [x, y, z])
     }
 
     fn atan2_slope(self, x: Self, slope: Self) -> Self {

@@ -8,14 +8,19 @@ mod float;
 mod interval;
 mod kernels;
 mod lanes;
+mod lattice;
+mod lattice_range;
 mod number;
 #[cfg(test)]
 mod samples;
 mod scalar;
+mod steep;
 mod vector;
 
 pub use dual::Dual;
 pub use interval::Interval;
 pub use lanes::{F32x64, F64x32, Lanes};
+pub use lattice::Lattice;
 pub use number::Number;
+pub use steep::Steep;
 pub use vector::Vec3;

@@ -1,5 +1,6 @@
 //! The one trait behind every distance function.
 
+use super::{Lattice, lattice};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number that a field can be evaluated over.
@@ -154,6 +155,18 @@ pub trait Number:
     fn cathetus(self) -> Self {
         let one = Self::splat(1.0);
         ((one - self) * (one + self)).sqrt()
+    }
+
+    /// The lattice function at the point `(x, y, z)`.
+    #[inline(always)]
+    fn lattice(lattice: Lattice, x: Self, y: Self, z: Self) -> Self {
+        lattice::value(lattice, x, y, z)
+    }
+
+    /// The partial derivatives of the lattice function at the point `(x, y, z)`.
+    #[inline(always)]
+    fn lattice_slope(lattice: Lattice, x: Self, y: Self, z: Self) -> [Self; 3] {
+        lattice::slope(lattice, x, y, z)
     }
 
     /// `self - floor(self)`, in [0, 1] (1 where a small negative number rounds to it).

@@ -1,6 +1,6 @@
 //! Random inputs and expressions for the tests of this floor.
 
-use super::Number;
+use super::{Lattice, Number};
 
 /// A sequence of random numbers that is fixed by its seed: a counter, hashed.
 pub struct Samples {
@@ -85,6 +85,8 @@ pub fn binary<N: Number>() -> Vec<(&'static str, Binary<N>)> {
         ("hypot", N::hypot),
         ("pow", N::pow),
         ("norm3", |x, y| N::norm3(x, y, x - y)),
+        ("noise", |x, y| N::lattice(Lattice::Noise, x, y, x - y)),
+        ("voronoi", |x, y| N::lattice(Lattice::Voronoi, x, y, x - y)),
         ("direction_cosine", |x, y| x.direction_cosine(x.hypot(y))),
         ("select_lt", |x, y| N::select_lt(x, y, x.square(), y)),
     ]

@@ -2,7 +2,7 @@
 
 use super::Graph;
 use crate::catalogue::Bounds;
-use crate::num::{Dual, Interval, Vec3};
+use crate::num::{Dual, Interval, Steep, Vec3};
 use std::collections::BinaryHeap;
 
 /// How many boxes the derivation of one constant may look at.
@@ -32,16 +32,9 @@ pub struct Refutation {
 pub fn gradient_bound(graph: &Graph, region: Bounds) -> f64 {
     let [x, y, z] = std::array::from_fn(|i| {
         let (low, high) = (region.low[i].max(-f64::MAX), region.high[i].min(f64::MAX));
-        Dual::variable(Interval::new(low, high), i)
+        Steep::variable(Interval::new(low, high), i)
     });
-    let field: Dual<Interval, 3> = graph.value(&Vec3::new(x, y, z));
-    let slope = field
-        .partial
-        .iter()
-        .map(|d| d.magnitude())
-        .fold(0.0, f64::hypot)
-        .next_up();
-    if slope.is_nan() { f64::INFINITY } else { slope }
+    graph.value(&Vec3::new(x, y, z)).slope()
 }
 
 /// The length of the gradient at a point.

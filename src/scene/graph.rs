@@ -398,6 +398,7 @@ impl Graph {
     pub(super) fn work(&self) -> u64 {
         let of_step = |step: &Step| match step.op {
             Op::Shape(index, _) => self.shapes[index as usize].size(),
+            Op::Call(function, _) => function.work(),
             _ => 1,
         };
         self.steps.iter().map(of_step).sum()

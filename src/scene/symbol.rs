@@ -2,7 +2,7 @@
 
 use super::{Graph, GraphBuilder, Id, Node};
 use crate::catalogue::Function;
-use crate::num::{Number, Vec3};
+use crate::num::{Lattice, Number, Vec3};
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::Arc;
@@ -138,6 +138,13 @@ impl Number for Symbol {
     }
     fn acos(self) -> Self {
         call(Function::Acos, &[self])
+    }
+    fn lattice(lattice: Lattice, x: Self, y: Self, z: Self) -> Self {
+        let function = match lattice {
+            Lattice::Noise => Function::Noise3,
+            Lattice::Voronoi => Function::Voronoi3,
+        };
+        call(function, &[x, y, z])
     }
     fn fract(self) -> Self {
         call(Function::Fract, &[self])

@@ -1,0 +1,443 @@
+//! Functions on the lattice of whole points: gradient noise, and the distance to scattered points.
+//!
+//! Every cell draws its random numbers from a permutation polynomial in plain floating point: (34 x + 10) x mod 289, of
+//! which all steps are exact whole numbers below 2^23, so `f32`, `f64` and lanes agree on them without any integers. The
+//! functions repeat themselves after 289 cells along each axis. They are exact in the cell for coordinates up to four
+//! million cells in `f32`; further out they stay in their range.
+//! Sources: Perlin 2002 (noise); Worley 1996 (distance); McEwan, Sheets, Richardson, Gustavson 2012 (hashing).
+
+use super::Number;
+
+/// A function on the lattice of whole points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lattice {
+    /// Perlin's gradient noise: zero at whole points, smooth between them.
+    Noise,
+    /// The distance to the nearest of the points that lie scattered one in every cell.
+    Voronoi,
+}
+
+/// The numbers that a hash can be.
+const PERIOD: f64 = 289.0;
+
+impl Lattice {
+    /// The values lie within `[low, high]`.
+    ///
+    /// Noise: the largest sum of corner weights times corner products, over all choices of the twelve gradients and all
+    /// points of a cell, is 1.036353811. Voronoi: no point is further than that from a corner of the box
+    /// [1/8, 7/8] x [1/8, 7/8] x [3/16, 13/16] of its own cell or the nearest of its neighbours.
+    pub fn range(self) -> [f64; 2] {
+        match self {
+            Self::Noise => [-1.036_354, 1.036_354],
+            Self::Voronoi => [0.0, 1.481_1],
+        }
+    }
+
+    /// The largest slope.
+    ///
+    /// Noise: 3.75, at the middle of a cell whose corners pull to both sides along an axis: twice the slope 15/8 of the
+    /// fade. Over all choices of gradients no slope is larger (branch and bound over point and direction).
+    pub fn lipschitz(self) -> f64 {
+        match self {
+            Self::Noise => 3.75,
+            Self::Voronoi => 1.0,
+        }
+    }
+}
+
+/// What is left of the whole number `x` above a multiple of `m`. The half keeps the product off whole numbers, so that
+/// its rounding does not matter.
+#[inline(always)]
+fn modulo<N: Number>(x: N, m: f64) -> N {
+    x - ((x + N::splat(0.5)) * N::splat(1.0 / m)).floor() * N::splat(m)
+}
+
+/// A permutation of the whole numbers below 289; larger ones count by what they leave.
+#[inline(always)]
+fn hash<N: Number>(x: N) -> N {
+    modulo((x * N::splat(34.0) + N::splat(10.0)) * x, PERIOD)
+}
+
+/// The hash of a row's hash `h` and a number `i` up to 291.
+#[inline(always)]
+fn hash_next<N: Number>(h: N, i: N) -> N {
+    let sum = h + i;
+    hash(N::select_lt(
+        sum,
+        N::splat(PERIOD),
+        sum,
+        sum - N::splat(PERIOD),
+    ))
+}
+
+/// The number of a cell that starts at the whole number `x`, from 0 to 288.
+#[inline(always)]
+fn cell<N: Number>(x: N) -> N {
+    modulo(x, PERIOD).clamp(N::splat(0.0), N::splat(PERIOD - 1.0))
+}
+
+/// The quintic 6 t^5 - 15 t^4 + 10 t^3. Source: Perlin 2002.
+#[inline(always)]
+pub(super) fn fade<N: Number>(t: N) -> N {
+    t.square() * t * (t * (t * N::splat(6.0) - N::splat(15.0)) + N::splat(10.0))
+}
+
+/// The derivative of [`fade`].
+#[inline(always)]
+pub(super) fn fade_slope<N: Number>(t: N) -> N {
+    (t * (N::splat(1.0) - t)).square() * N::splat(30.0)
+}
+
+/// The hash of the cell or corner at three whole numbers.
+pub(super) fn hash_at(corner: [f64; 3]) -> f64 {
+    let [i, j, k] = corner.map(cell);
+    hash_next(hash_next(hash(i), j), k)
+}
+
+/// The gradient that a corner draws: one of the twelve directions from the middle of a cube to its edges.
+#[inline(always)]
+pub(super) fn gradient<N: Number>(h: N) -> [N; 3] {
+    let (zero, one) = (N::splat(0.0), N::splat(1.0));
+    let number = modulo(h, 12.0);
+    let plane = (number * N::splat(0.25)).floor();
+    let signs = number - plane * N::splat(4.0);
+    let upper = (signs * N::splat(0.5)).floor();
+    let lower = signs - upper - upper;
+    let (s, t) = (one - lower - lower, one - upper - upper);
+    let (first, second) = (N::splat(0.5), N::splat(1.5));
+    [
+        N::select_lt(plane, first, s, N::select_lt(plane, second, zero, t)),
+        N::select_lt(plane, first, t, N::select_lt(plane, second, s, zero)),
+        N::select_lt(plane, first, zero, N::select_lt(plane, second, t, s)),
+    ]
+}
+
+/// A coordinate as the number of its cell and the place in it.
+#[inline(always)]
+fn split<N: Number>(x: N) -> (N, N) {
+    let floor = x.floor();
+    (cell(floor), x - floor)
+}
+
+/// The value of gradient noise.
+#[inline(always)]
+fn noise<N: Number>(x: N, y: N, z: N) -> N {
+    let one = N::splat(1.0);
+    let ((i, u), (j, v), (k, w)) = (split(x), split(y), split(z));
+    let (a, b, c) = (fade(u), fade(v), fade(w));
+    let mut sum = N::splat(0.0);
+    for corner in 0..8 {
+        let [right, top, front] = [corner & 1, corner >> 1 & 1, corner >> 2].map(f64::from);
+        let [r, t, f] = [N::splat(right), N::splat(top), N::splat(front)];
+        let h = hash_next(hash_next(hash(i + r), j + t), k + f);
+        let g = gradient(h);
+        let height = g[0] * (u - r) + g[1] * (v - t) + g[2] * (w - f);
+        let along_x = if right > 0.0 { a } else { one - a };
+        let along_y = if top > 0.0 { b } else { one - b };
+        let along_z = if front > 0.0 { c } else { one - c };
+        sum = sum + along_x * along_y * along_z * height;
+    }
+    sum
+}
+
+/// The gradient of gradient noise.
+#[inline(always)]
+fn noise_slope<N: Number>(x: N, y: N, z: N) -> [N; 3] {
+    let one = N::splat(1.0);
+    let ((i, u), (j, v), (k, w)) = (split(x), split(y), split(z));
+    let (a, b, c) = (fade(u), fade(v), fade(w));
+    let (da, db, dc) = (fade_slope(u), fade_slope(v), fade_slope(w));
+    let mut slope = [N::splat(0.0); 3];
+    for corner in 0..8 {
+        let [right, top, front] = [corner & 1, corner >> 1 & 1, corner >> 2].map(f64::from);
+        let [r, t, f] = [N::splat(right), N::splat(top), N::splat(front)];
+        let h = hash_next(hash_next(hash(i + r), j + t), k + f);
+        let g = gradient(h);
+        let height = g[0] * (u - r) + g[1] * (v - t) + g[2] * (w - f);
+        let (ax, dx) = if right > 0.0 { (a, da) } else { (one - a, -da) };
+        let (ay, dy) = if top > 0.0 { (b, db) } else { (one - b, -db) };
+        let (az, dz) = if front > 0.0 { (c, dc) } else { (one - c, -dc) };
+        let weight = ax * ay * az;
+        slope[0] = slope[0] + weight * g[0] + dx * ay * az * height;
+        slope[1] = slope[1] + weight * g[1] + ax * dy * az * height;
+        slope[2] = slope[2] + weight * g[2] + ax * ay * dz * height;
+    }
+    slope
+}
+
+/// Where in its cell a point lies: on a grid of steps of 1/8, no nearer than 1/8 to the border.
+#[inline(always)]
+pub(super) fn scattered<N: Number>(h: N) -> [N; 3] {
+    let (step, seven) = (N::splat(0.125), N::splat(7.0));
+    let rows = ((h + N::splat(0.5)) * N::splat(1.0 / 7.0)).floor();
+    let layers = ((h + N::splat(0.5)) * N::splat(1.0 / 49.0)).floor();
+    [
+        (h - rows * seven) * step + N::splat(0.125),
+        (rows - layers * seven) * step + N::splat(0.125),
+        layers * step + N::splat(0.1875),
+    ]
+}
+
+/// The vector from the nearest scattered point to `(x, y, z)`, and the square of its length.
+///
+/// Of each axis four cells matter: with u in [0, 1/2] the place in the own cell (the other half is its mirror image),
+/// those from 2 before to 1 behind. All scattered points keep a = 1/8 from the borders, so the one in the own cell is at
+/// most 1 - a - u away along each axis, together at most 1.516; a point 3 before or 2 behind is at least 3/2 + a = 1.625
+/// away. A point 2 before is at least 1 + a + u away, one behind 1 + a - u: where this holds along all three axes, the own
+/// point is nearer, so such cells are left out.
+#[inline(always)]
+fn nearest<N: Number>(x: N, y: N, z: N) -> ([N; 3], N) {
+    let half = N::splat(0.5);
+    let first = [
+        (x - half).floor() - N::splat(1.0),
+        (y - half).floor() - N::splat(1.0),
+        (z - half).floor() - N::splat(1.0),
+    ];
+    let numbers = [cell(first[0]), cell(first[1]), cell(first[2])];
+    let from = [x - first[0], y - first[1], z - first[2]];
+    let mut way = [N::splat(0.0); 3];
+    let mut shortest = N::splat(f64::INFINITY);
+    for i in 0..4 {
+        let row = hash(numbers[0] + N::splat(f64::from(i)));
+        for j in 0..4 {
+            let column = hash_next(row, numbers[1] + N::splat(f64::from(j)));
+            for k in 0..4 {
+                let is_outer = |n: i32| n == 0 || n == 3;
+                if is_outer(i) && is_outer(j) && is_outer(k) {
+                    continue;
+                }
+                let h = hash_next(column, numbers[2] + N::splat(f64::from(k)));
+                let place = scattered(h);
+                let dx = from[0] - N::splat(f64::from(i)) - place[0];
+                let dy = from[1] - N::splat(f64::from(j)) - place[1];
+                let dz = from[2] - N::splat(f64::from(k)) - place[2];
+                let squared = dx.square() + dy.square() + dz.square();
+                way[0] = N::select_lt(squared, shortest, dx, way[0]);
+                way[1] = N::select_lt(squared, shortest, dy, way[1]);
+                way[2] = N::select_lt(squared, shortest, dz, way[2]);
+                shortest = squared.min(shortest);
+            }
+        }
+    }
+    // A coordinate that is not finite has no nearest point: then its place is not a number, and so is what this adds.
+    let nothing = (from[0] + from[1] + from[2]) * N::splat(0.0);
+    (way, shortest + nothing)
+}
+
+/// The value of a lattice function.
+#[inline(always)]
+pub(super) fn value<N: Number>(lattice: Lattice, x: N, y: N, z: N) -> N {
+    match lattice {
+        Lattice::Noise => noise(x, y, z),
+        Lattice::Voronoi => nearest(x, y, z).1.sqrt(),
+    }
+}
+
+/// The partial derivatives of a lattice function.
+#[inline(always)]
+pub(super) fn slope<N: Number>(lattice: Lattice, x: N, y: N, z: N) -> [N; 3] {
+    match lattice {
+        Lattice::Noise => noise_slope(x, y, z),
+        Lattice::Voronoi => {
+            let ([dx, dy, dz], squared) = nearest(x, y, z);
+            let length = squared.sqrt();
+            [
+                dx.direction_cosine(length),
+                dy.direction_cosine(length),
+                dz.direction_cosine(length),
+            ]
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::Samples;
+    use super::super::{Dual, Interval};
+    use super::*;
+
+    const SEED: u64 = 0x1a77;
+    const KINDS: [Lattice; 2] = [Lattice::Noise, Lattice::Voronoi];
+
+    fn at(lattice: Lattice, [x, y, z]: [f64; 3]) -> f64 {
+        f64::lattice(lattice, x, y, z)
+    }
+
+    fn steepness(lattice: Lattice, [x, y, z]: [f64; 3]) -> f64 {
+        let [u, v, w] = f64::lattice_slope(lattice, x, y, z);
+        f64::norm3(u, v, w)
+    }
+
+    fn point(samples: &mut Samples, reach: f64) -> [f64; 3] {
+        [0; 3].map(|_| samples.uniform(-reach, reach))
+    }
+
+    /// The polynomial in whole numbers.
+    #[test]
+    fn hashes_are_those_of_integers_in_both_widths() {
+        for x in 0..=291u64 {
+            let expected = (34 * x * x + 10 * x) % 289;
+            assert_eq!(hash(x as f64), expected as f64);
+            assert_eq!(hash(x as f32), expected as f32);
+            for i in 0..=291u64 {
+                let expected = (34 * (expected + i) + 10) * (expected + i) % 289;
+                assert_eq!(hash_next(hash(x as f64), i as f64), expected as f64);
+                assert_eq!(hash_next(hash(x as f32), i as f32), expected as f32);
+            }
+        }
+        for x in -4_000_000i64..4_000_000 {
+            assert_eq!(cell(x as f32), x.rem_euclid(289) as f32, "{x}");
+            assert_eq!(cell(x as f64), x.rem_euclid(289) as f64, "{x}");
+        }
+    }
+
+    #[test]
+    fn hashes_permute_and_gradients_are_the_twelve() {
+        let mut hashes: Vec<u32> = (0..289).map(|x| hash(f64::from(x)) as u32).collect();
+        hashes.sort_unstable();
+        assert!(hashes.into_iter().eq(0..289));
+        let all: std::collections::BTreeSet<[i8; 3]> = (0..289)
+            .map(|h| gradient(f64::from(h)).map(|c| c as i8))
+            .collect();
+        assert_eq!(all.len(), 12);
+        let is_edge = |g: &[i8; 3]| g.iter().filter(|c| **c == 0).count() == 1;
+        assert!(all.iter().all(is_edge), "{all:?}");
+    }
+
+    #[test]
+    fn noise_is_zero_at_whole_points_and_repeats() {
+        let mut samples = Samples::new(SEED);
+        for lattice in KINDS {
+            for _ in 0..500 {
+                let p = point(&mut samples, 50.0);
+                let again = [p[0] + 289.0, p[1] - 289.0, p[2] + 578.0];
+                assert!((at(lattice, p) - at(lattice, again)).abs() < 1e-11);
+                if lattice == Lattice::Noise {
+                    assert_eq!(at(lattice, p.map(f64::floor)), 0.0);
+                }
+            }
+        }
+    }
+
+    /// Short steps, half of them over a border of cells, change little.
+    #[test]
+    fn no_step_is_steeper_than_the_constant() {
+        let mut samples = Samples::new(SEED);
+        for lattice in KINDS {
+            let [low, high] = lattice.range();
+            for n in 0..20_000 {
+                let mut p = point(&mut samples, 300.0);
+                let step = [1e-6, 1e-3, 0.3][n % 3];
+                if n % 2 == 0 {
+                    let axis = samples.below(3);
+                    p[axis] = (2.0 * p[axis]).round() / 2.0;
+                }
+                let q: [f64; 3] = p.map(|c| c + samples.uniform(-step, step));
+                let (a, b) = (at(lattice, p), at(lattice, q));
+                let distance = f64::norm3(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+                assert!(low <= a && a <= high, "{lattice:?} {a} at {p:?}");
+                assert!(
+                    (a - b).abs() <= lattice.lipschitz() * distance + 1e-12,
+                    "{lattice:?} from {p:?} to {q:?}, seed {SEED:#x}"
+                );
+                assert!(steepness(lattice, p) <= lattice.lipschitz() + 1e-12);
+            }
+        }
+    }
+
+    /// Over all cells within 5, not only the 56 that are looked at.
+    #[test]
+    fn nearest_point_is_the_nearest_of_all() {
+        let mut samples = Samples::new(SEED);
+        for _ in 0..300 {
+            let p = point(&mut samples, 20.0);
+            let mut nearest = f64::INFINITY;
+            for n in 0..1000 {
+                let corner: [f64; 3] = std::array::from_fn(|k| {
+                    p[k].floor() + f64::from(n / 10i32.pow(k as u32) % 10) - 5.0
+                });
+                let place = scattered(hash_at(corner));
+                let way: [f64; 3] = std::array::from_fn(|k| p[k] - corner[k] - place[k]);
+                nearest = nearest.min(f64::norm3(way[0], way[1], way[2]));
+            }
+            assert!(
+                (at(Lattice::Voronoi, p) - nearest).abs() < 1e-13,
+                "at {p:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn gradients_are_differences() {
+        let mut samples = Samples::new(SEED);
+        for lattice in KINDS {
+            for _ in 0..2_000 {
+                let p = point(&mut samples, 9.0);
+                let [x, y, z] = [0, 1, 2].map(|i| Dual::<f64, 3>::variable(p[i], i));
+                let gradient = Dual::lattice(lattice, x, y, z).partial;
+                for axis in 0..3 {
+                    let moved = |h: f64| {
+                        let mut q = p;
+                        q[axis] += h;
+                        at(lattice, q)
+                    };
+                    let (ahead, behind) = (moved(1e-6) - moved(0.0), moved(0.0) - moved(-1e-6));
+                    let is_smooth = (ahead - behind).abs() < 1e-9;
+                    let slope = 0.5e6 * (ahead + behind);
+                    assert!(!is_smooth || (slope - gradient[axis]).abs() < 1e-4);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn ranges_hold_values_and_slopes_and_are_tight_on_small_boxes() {
+        let mut samples = Samples::new(SEED);
+        for lattice in KINDS {
+            for n in 0..1_500 {
+                let size = [0.0, 1e-9, 1e-3, 0.1, 0.9, 4.0][n % 6];
+                let low = point(&mut samples, if n % 5 == 0 { 1e6 } else { 3.0 });
+                let high = low.map(|c| c + size * samples.uniform(0.0, 1.0));
+                let [x, y, z] = std::array::from_fn(|k| Interval::new(low[k], high[k]));
+                let value = Interval::lattice(lattice, x, y, z);
+                let slopes = Interval::lattice_slope(lattice, x, y, z);
+                for _ in 0..20 {
+                    let p: [f64; 3] = std::array::from_fn(|k| {
+                        samples.uniform(low[k], high[k]).clamp(low[k], high[k])
+                    });
+                    assert!(
+                        value.contains(at(lattice, p)),
+                        "{lattice:?} at {p:?} in {value:?}"
+                    );
+                    let slope = f64::lattice_slope(lattice, p[0], p[1], p[2]);
+                    for (range, d) in slopes.iter().zip(slope) {
+                        assert!(
+                            range.contains(d),
+                            "{lattice:?} slope {d} at {p:?} in {range:?}"
+                        );
+                    }
+                }
+                let radius = f64::norm3(x.width(), y.width(), z.width());
+                let reach = 2.5 * lattice.lipschitz() * radius + 1e-12;
+                assert!(
+                    size > 1e-3 || value.width() <= reach,
+                    "{lattice:?}: {value:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_not_finite_has_no_value() {
+        for lattice in KINDS {
+            for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                assert!(at(lattice, [0.3, x, 0.2]).is_nan());
+            }
+            let [low, high] = lattice.range();
+            for x in [1e15, 1e40, -1e300] {
+                let value = at(lattice, [0.3, x, 0.2]);
+                assert!(low <= value && value <= high, "{lattice:?} {value} at {x}");
+            }
+        }
+    }
+}

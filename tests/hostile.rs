@@ -186,6 +186,12 @@ fn a_union_that_doubles() {
 }
 
 #[test]
+fn a_large_union_by_a_long_blend() {
+    let script = "let s = sphere(1)\nlet all = for i in 0..200000 { s }\nshow union(all, blend: stairs(0.1, 32))";
+    refuses(script, &["MAX_SIZE"]);
+}
+
+#[test]
 fn endless_recursion() {
     refuses(
         "fn f(x) { f(x + 1) }\nshow f(0)",

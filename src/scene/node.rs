@@ -190,6 +190,9 @@ impl Node {
                 "unite many shapes at once, as in `union(list)`, instead of one after another",
             ));
         }
+        if least_recorded(&shape) > Self::MAX_SIZE {
+            return Err(too_large());
+        }
         let recording = recorded(&shape).map(Arc::new);
         let size = 1 + match &shape {
             _ if recording.is_some() => recording.as_ref().map_or(0, |graph| graph.work()),
@@ -200,11 +203,7 @@ impl Node {
             Shape::Modifier(_, child) => child.size,
         };
         if size > Self::MAX_SIZE {
-            let limit = Self::MAX_SIZE;
-            return Err(Fault::new(
-                format!("the shape has more than {limit} parts (limit MAX_SIZE)"),
-                "repeat a part with `.repeat(...)`, which costs no more than the part itself",
-            ));
+            return Err(too_large());
         }
         let mut node = Self {
             shape,
@@ -450,6 +449,30 @@ fn recorded(shape: &Shape) -> Option<Graph> {
             with_recorded_modifier!(modifier, m => record(|p| m.apply(p, |q| asked(child, q))))
         }
     }
+}
+
+/// How many operations a recorded combination takes at least, from what its third child adds to the first two: what is
+/// too large is not even recorded.
+fn least_recorded(shape: &Shape) -> u64 {
+    match shape {
+        Shape::Combination(combination, children) if children.len() > 3 => {
+            let of_first = |n: usize| {
+                let part = Shape::Combination(combination.clone(), children[..n].to_vec());
+                recorded(&part).map_or(0, |graph| graph.len())
+            };
+            let step = of_first(3).saturating_sub(of_first(2));
+            step as u64 * (children.len() as u64 - 1)
+        }
+        _ => 0,
+    }
+}
+
+fn too_large() -> Fault {
+    let limit = Node::MAX_SIZE;
+    Fault::new(
+        format!("the shape has more than {limit} parts (limit MAX_SIZE)"),
+        "repeat a part with `.repeat(...)`, which costs no more than the part itself",
+    )
 }
 
 /// The children with those of equal hard combinations in their place, where no paint is lost by it.

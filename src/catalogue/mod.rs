@@ -42,8 +42,8 @@ pub use profiles::{Circle, Polygon, Rectangle, Ring, Segment};
 pub use solids::{
     Blob, BoxFrame, CappedCone, CappedTorus, Capsule, Cone, Cuboid, CutSphere, Cylinder,
     Dodecahedron, Ellipsoid, Gyroid, Helix, Icosahedron, Julia, Lens, Link, Menger, Octahedron,
-    Plane, Prism, Pyramid, Quad, Rod, RoundCone, SchwarzD, SchwarzP, Sierpinski, Slab, SolidAngle,
-    Sphere, Spindle, Superellipsoid, Tetrahedron, Torus, Triangle, Tube,
+    Plane, Prism, Pyramid, Quad, Rhombus, Rod, RoundCone, SchwarzD, SchwarzP, Sierpinski, Slab,
+    SolidAngle, Sphere, Superellipsoid, Tetrahedron, Torus, Triangle, Tube, Vesica,
 };
 
 declaration::list!($
@@ -51,7 +51,8 @@ declaration::list!($
     AnyPrimitive, with_primitive, with_compiled_primitive, with_recorded_primitive:
     Sphere, Ellipsoid, Cuboid, Plane, Triangle, Cylinder, Cone, Capsule, Torus, BoxFrame, Slab, CappedCone,
     Circle, Rectangle, Polygon;
-    recorded Link, Rod, RoundCone, CappedTorus, CutSphere, SolidAngle, Lens, Spindle, Prism, Pyramid, Tetrahedron, Octahedron, Dodecahedron, Icosahedron, Quad, Tube, Helix,
+    recorded Link, Rod, RoundCone, CappedTorus, CutSphere, SolidAngle, Lens, Vesica, Rhombus, Prism, Pyramid,
+    Tetrahedron, Octahedron, Dodecahedron, Icosahedron, Quad, Tube, Helix,
     Ring, Segment,
     Gyroid, SchwarzP, SchwarzD, Superellipsoid, Menger, Sierpinski, Julia, Blob
 );

@@ -38,7 +38,10 @@ pub use modifiers::{
     Extrude, Mirror, Offset, Repeat, Revolve, Rotate, Scale, Shell, Translate, Twist,
 };
 pub use primitive::Primitive;
-pub use profiles::{Circle, Polygon, Rectangle, Ring, Segment};
+pub use profiles::{
+    Arc, Bezier, Circle, Cross2, Egg, Ellipse, Heart, Moon, Parallelogram, Pie, Polygon, Polyline,
+    Rectangle, RegularPolygon, Rhombus2, Ring, Segment, Star, Trapezoid, Triangle2, Vesica2,
+};
 pub use solids::{
     Blob, BoxFrame, CappedCone, CappedTorus, Capsule, Cone, Cuboid, CutSphere, Cylinder,
     Dodecahedron, Ellipsoid, Gyroid, Helix, Icosahedron, Julia, Lens, Link, Menger, Octahedron,
@@ -53,7 +56,8 @@ declaration::list!($
     Circle, Rectangle, Polygon;
     recorded Link, Rod, RoundCone, CappedTorus, CutSphere, SolidAngle, Lens, Vesica, Rhombus, Prism, Pyramid,
     Tetrahedron, Octahedron, Dodecahedron, Icosahedron, Quad, Tube, Helix,
-    Ring, Segment,
+    Ring, Segment, Ellipse, RegularPolygon, Star, Triangle2, Trapezoid, Parallelogram, Rhombus2, Polyline, Bezier, Arc,
+    Pie, Vesica2, Moon, Egg, Heart, Cross2,
     Gyroid, SchwarzP, SchwarzD, Superellipsoid, Menger, Sierpinski, Julia, Blob
 );
 

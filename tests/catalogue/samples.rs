@@ -59,6 +59,7 @@ fn argument(parameter: &Parameter, dice: &mut Dice) -> Argument {
         .max(if range.includes_low { f64::MIN } else { 0.1 });
     let high = range.high.min(match parameter.kind {
         Kind::Count => 6.0,
+        Kind::Angle if range.high < f64::MAX => range.high,
         _ => 1.2,
     });
     let mut number = || dice.between(low, high);

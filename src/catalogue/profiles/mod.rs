@@ -1,13 +1,45 @@
 //! Primitives in the plane, for `extrude` and `revolve`.
 
+mod arc;
+mod bezier;
 mod circle;
+mod cross2;
+mod egg;
+mod ellipse;
+mod heart;
+mod moon;
+mod parallelogram;
+mod pie;
 mod polygon;
+mod polyline;
 mod rectangle;
+mod regular_polygon;
+mod rhombus2;
 mod ring;
 mod segment;
+mod star;
+mod trapezoid;
+mod triangle2;
+mod vesica2;
 
+pub use arc::Arc;
+pub use bezier::Bezier;
 pub use circle::Circle;
+pub use cross2::Cross2;
+pub use egg::Egg;
+pub use ellipse::Ellipse;
+pub use heart::Heart;
+pub use moon::Moon;
+pub use parallelogram::Parallelogram;
+pub use pie::Pie;
 pub use polygon::Polygon;
+pub use polyline::Polyline;
 pub use rectangle::Rectangle;
+pub use regular_polygon::RegularPolygon;
+pub use rhombus2::Rhombus2;
 pub use ring::Ring;
 pub use segment::Segment;
+pub use star::Star;
+pub use trapezoid::Trapezoid;
+pub use triangle2::Triangle2;
+pub use vesica2::Vesica2;

@@ -1,7 +1,7 @@
 //! The polygon.
 
-use crate::catalogue::plane_geometry::Edge;
-use crate::catalogue::{Bounds, Primitive, Range, Traits, declaration::entry};
+use crate::catalogue::plane_geometry::{Edge, area, bounds_around, crossing_edges, outline};
+use crate::catalogue::{Argument, Bounds, Primitive, Range, Traits, declaration::entry};
 use crate::num::{Number, Vec3};
 
 entry! {
@@ -11,20 +11,10 @@ entry! {
         points: Vec<[f64; 2]>, Points, Range::ANY, default vec![[-0.6, -0.4], [0.6, -0.4], [0.0, 0.7]];
     }
     derived {
-        edges: Vec<Edge> = outline(&points);
+        edges: Vec<Edge> = outline(&distinct(&points));
     }
     source "Quilez, 2D distance functions (polygon), with the even-odd rule; a distance, so its constant is 1"
     example "polygon([[-0.6, -0.4], [0.6, -0.4], [0, 0.7]]).extrude(0.4)"
-}
-
-/// The signed area: positive for corners that turn counter-clockwise.
-fn area(points: &[[f64; 2]]) -> f64 {
-    let next = points.iter().cycle().skip(1);
-    points
-        .iter()
-        .zip(next)
-        .map(|(a, b)| 0.5 * (a[0] * b[1] - a[1] * b[0]))
-        .sum()
 }
 
 /// The corners without those that repeat the one before, also across the end of the list.
@@ -35,19 +25,6 @@ fn distinct(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
         points.pop();
     }
     points
-}
-
-/// The edges in counter-clockwise order.
-fn outline(points: &[[f64; 2]]) -> Vec<Edge> {
-    let mut points = distinct(points);
-    if area(&points) < 0.0 {
-        points.reverse();
-    }
-    points
-        .iter()
-        .zip(points.iter().cycle().skip(1))
-        .map(|(a, b)| Edge::new(*a, *b))
-        .collect()
 }
 
 impl Primitive for Polygon {
@@ -69,10 +46,7 @@ impl Primitive for Polygon {
     }
 
     fn sublevel(&self, level: f64) -> Bounds {
-        let mut bounds =
-            Bounds::around(self.points.iter().map(|p| [p[0], p[1], 0.0])).inflate(level);
-        (bounds.low[2], bounds.high[2]) = (f64::NEG_INFINITY, f64::INFINITY);
-        bounds
+        bounds_around(&self.points, level)
     }
 
     fn traits(&self) -> Traits {
@@ -85,11 +59,24 @@ impl Primitive for Polygon {
     }
 
     fn check(&self) -> Result<(), (&'static str, String)> {
-        let corners = distinct(&self.points).len();
-        if corners < 3 {
+        let corners = distinct(&self.points);
+        let n = corners.len();
+        if n < 3 {
             return Err((
                 "points",
-                format!("must be three or more that differ, but there are {corners}"),
+                format!("must be three or more that differ, but there are {n}"),
+            ));
+        }
+        if let Some(edges) = crossing_edges(&corners) {
+            let [first, second] = edges.map(|i| {
+                let (a, b) = (corners[i], corners[(i + 1) % n]);
+                format!("from {} to {}", Argument::Vector2(a), Argument::Vector2(b))
+            });
+            return Err((
+                "points",
+                format!(
+                    "must not cross themselves, but the edge {first} crosses the edge {second}"
+                ),
             ));
         }
         if area(&self.points) == 0.0 {

@@ -1,6 +1,6 @@
 //! The segment.
 
-use crate::catalogue::plane_geometry::Edge;
+use crate::catalogue::plane_geometry::{Edge, bounds_around};
 use crate::catalogue::{Bounds, Primitive, Range, Traits, declaration::entry};
 use crate::num::{Number, Vec3};
 
@@ -28,10 +28,7 @@ impl Primitive for Segment {
     }
 
     fn sublevel(&self, level: f64) -> Bounds {
-        let line = Bounds::around([self.a, self.b].map(|p| [p[0], p[1], 0.0]));
-        let mut bounds = line.inflate(0.5 * self.width + level);
-        (bounds.low[2], bounds.high[2]) = (f64::NEG_INFINITY, f64::INFINITY);
-        bounds
+        bounds_around(&[self.a, self.b], 0.5 * self.width + level)
     }
 
     fn traits(&self) -> Traits {

@@ -151,6 +151,7 @@ fn values(parameter: &Parameter, x: f64) -> Vec<String> {
         (Kind::Vector2, _) => list(&[usual; 2]),
         (Kind::Vector3 | Kind::Factors | Kind::Direction, _) => list(&[usual; 3]),
         (Kind::Points, _) => vec![format!("[[-1, -1], [1, {}], [0, 1]]", number(x))],
+        (Kind::Points3, _) => vec![format!("[[0, 0, {}], [0.5, 0, 0]]", number(x))],
         _ => vec![],
     }
 }

@@ -442,6 +442,53 @@ fn patterns_of_noise_are_mixtures_of_their_colours() {
 }
 
 #[test]
+fn displaced_shapes_add_values_and_constants() {
+    holds(
+        "field waves(p, depth = 0.05) { return depth * sin(20 * p.x) }\n\
+         let ball = sphere(1).displace(waves)\n\
+         let deep = sphere(1).displace(waves(depth: 0.1))\n\
+         let both = [sphere(1), box(1)].displace(waves)",
+        &[
+            "abs(ball.at([1.2, 0, 0]) - (0.2 + 0.05 * sin(24))) < 1e-12",
+            // Attained where both gradients point along x.
+            "ball.lipschitz >= 2 and ball.lipschitz <= 2.03",
+            "deep.lipschitz >= 3 and deep.lipschitz <= 3.06",
+            // The surface is at most as far outside as the field is low.
+            "ball.bounds.max.y >= 1.05 and ball.bounds.max.y < 1.0500001",
+            "len(both) == 2 and abs(both[1].bounds.max.x - 0.55) < 1e-6",
+        ],
+    );
+    let message = errors("field f(p) { return p.x }\nshow sphere(1).displace(f)");
+    assert!(
+        message.contains("the field `f` may fall without end"),
+        "{message}"
+    );
+    assert!(message.contains("clamp(x, -0.2, 0.2)"), "{message}");
+    let message = errors("show sphere(1).displace(box(1))");
+    assert!(message.contains("`displace` expects a field"), "{message}");
+}
+
+#[test]
+fn heightfields_are_blocks_of_ground() {
+    holds(
+        "field hills(p) { return 0.25 * sin(2 * p.x) * cos(p.z) }\n\
+         let ground = heightfield(hills, size: [4, 2], base: -1)",
+        &[
+            "abs(ground.bounds.max.y - 0.25) < 0.02 and ground.bounds.max.y >= 0.2499",
+            "ground.bounds.min.y == -1",
+            "abs(ground.bounds.max.x - 2) < 1e-9 and abs(ground.bounds.min.z + 1) < 1e-9",
+            "abs(ground.at([0.7, 0.2, 0.3]) - (0.2 - 0.25 * sin(1.4) * cos(0.3))) < 1e-12",
+            // The slope of hills is at most 1/2.
+            "ground.lipschitz >= 1.118 and ground.lipschitz < 1.152",
+        ],
+    );
+    let message = errors("field h(p) { return p.x }\nshow heightfield(h, base: 2)");
+    assert!(message.contains("must lie below the ground"), "{message}");
+    let message = errors("field h(p) { return 1 / p.x }\nshow heightfield(h)");
+    assert!(message.contains("have no bounds"), "{message}");
+}
+
+#[test]
 fn random_numbers_depend_on_their_arguments_alone() {
     holds(
         "let xs = for i in 0..1000 { rand(1, i) }",

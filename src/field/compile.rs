@@ -88,6 +88,7 @@ macro_rules! builders {
                         let child = build::<N, GRAPHS>(child);
                         with_compiled_modifier!(modifier, m => modified(m.clone(), child))
                     }
+                    Shape::Displacement(_) => None,
                 };
                 // Not a number: a walk that meets it ends as unknown.
                 compiled.unwrap_or_else(|| Box::new(|_: &Vec3<N>| N::splat(f64::NAN)))

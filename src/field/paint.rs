@@ -48,6 +48,8 @@ fn collect<'a>(node: &'a Node, p: [f64; 3], outer: Share<'a>, found: &mut Vec<Sh
         Shape::Modifier(modifier, child) => {
             collect(child, child_point(modifier, child, p), here, found)
         }
+        // The relief moves the surface of the shape, and so its paint.
+        Shape::Displacement(displacement) => collect(&displacement.operands[0], p, here, found),
         Shape::Combination(combination, children) => {
             let weights = weights(combination, children, p);
             let shown = |i: usize| Share {

@@ -24,9 +24,11 @@ pub(super) enum Intrinsic {
     Concat,
     Cross,
     Distance,
+    Displace,
     Dot,
     Fbm,
     Gradient,
+    Heightfield,
     Len,
     Length,
     Marble,
@@ -46,7 +48,7 @@ pub(super) enum Intrinsic {
 
 impl Intrinsic {
     /// Every one with its name, its arguments (a `?` marks those that may be left out), and what it gives.
-    pub const ALL: [(&'static str, Self, &'static str, &'static str); 23] = [
+    pub const ALL: [(&'static str, Self, &'static str, &'static str); 25] = [
         (
             "at",
             Self::At,
@@ -72,6 +74,12 @@ impl Intrinsic {
             "a, b",
             "the distance between two points",
         ),
+        (
+            "displace",
+            Self::Displace,
+            "shape, field",
+            "the shape with a field added to its own: dented where it is positive, swollen where it is negative",
+        ),
         ("dot", Self::Dot, "a, b", "the scalar product"),
         (
             "fbm",
@@ -84,6 +92,12 @@ impl Intrinsic {
             Self::Gradient,
             "a, b, from?, to?",
             "a pattern that turns from `a` at `from` ([0, 0, 0]) into `b` at `to` ([0, 1, 0])",
+        ),
+        (
+            "heightfield",
+            Self::Heightfield,
+            "field, size?, base?",
+            "a block of ground of `size` ([2, 2]) along x and z, from y = `base` up to the field's value at (x, 0, z)",
         ),
         (
             "len",

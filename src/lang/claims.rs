@@ -85,6 +85,11 @@ fn collect(node: &Node, region: Bounds, regions: &mut Regions) {
                 collect(child, region, regions);
             }
         }
+        Shape::Displacement(displacement) => {
+            for operand in &displacement.operands {
+                collect(operand, region, regions);
+            }
+        }
         Shape::Modifier(modifier, child) => {
             let inner = with_modifier!(modifier, m => m.domain(region));
             collect(child, inner, regions);

@@ -53,6 +53,10 @@ impl<'a> Machine<'a> {
                     })
                 }
             },
+            (Intrinsic::Displace, Some(field)) => {
+                self.displace(&first.value, first.span, &field, at)
+            }
+            (Intrinsic::Heightfield, size) => self.heightfield(&first, size, third, at),
             (Intrinsic::Len, _) => match &first.value {
                 Value::Text(text) => Ok(Value::Number(text.len() as f64)),
                 other => {

@@ -29,6 +29,7 @@ mod noise;
 mod numeric;
 mod operators;
 mod program;
+mod relief;
 mod report;
 mod resolve;
 mod scan;

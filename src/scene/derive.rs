@@ -37,6 +37,12 @@ pub fn gradient_bound(graph: &Graph, region: Bounds) -> f64 {
     graph.value(&Vec3::new(x, y, z)).slope()
 }
 
+/// The range of the graph's first output over `region`, infinite where no end is known.
+pub fn range_of_graph(graph: &Graph, region: Bounds) -> Interval {
+    let [x, y, z] = std::array::from_fn(|i| Interval::new(region.low[i], region.high[i]));
+    graph.value(&Vec3::new(x, y, z))
+}
+
 /// The length of the gradient at a point.
 fn slope_at(graph: &Graph, p: [f64; 3]) -> f64 {
     let [x, y, z] = std::array::from_fn(|i| Dual::variable(p[i], i));

@@ -16,13 +16,13 @@ mod tracer;
 use std::sync::Arc;
 
 pub use camera::{Camera, Projection};
-pub use derive::{Refutation, gradient_bound, refute};
+pub use derive::{Refutation, gradient_bound, range_of_graph, refute};
 pub use environment::{Fog, Sky};
 pub use fault::Fault;
 pub use graph::{Graph, GraphBuilder, Id};
 pub use light::{Falloff, Light, Source};
 pub use material::{Material, Model, Shadow, Term};
-pub use node::{FieldShape, Node, Place, Shape};
+pub use node::{Displacement, FieldShape, Node, Place, Shape};
 pub use settings::{Method, Settings};
 pub use tracer::{TraceRecord, Tracer};
 

@@ -1,6 +1,6 @@
 //! The tree of shapes. A node cannot be made without its certificates.
 
-use super::derive::lipschitz_of_graph;
+use super::derive::{lipschitz_of_graph, range_of_graph};
 #[allow(unused_imports)]
 use super::symbol::{asked, record};
 use super::{Fault, Graph, Material};
@@ -24,6 +24,23 @@ pub enum Shape {
     Combination(Combination, Vec<Arc<Node>>),
     /// One shape, changed.
     Modifier(AnyModifier, Arc<Node>),
+    /// A shape, and a field that is added to its own.
+    Displacement(Displacement),
+}
+
+/// A shape whose surface is moved: its field plus a relief. The inside grows where the relief is negative.
+#[derive(Clone, Debug)]
+pub struct Displacement {
+    /// The shape and the relief, a user's field.
+    pub operands: [Arc<Node>; 2],
+    /// A number that the relief is nowhere below.
+    pub lowest: f64,
+}
+
+impl Displacement {
+    /// The Lipschitz rule in words, with its source.
+    pub const RULE: &'static str =
+        "the sum of the constants of the shape and of the field that is added";
 }
 
 /// A user's field: its graph, and the Lipschitz constant that its author claims for it, if any.
@@ -165,6 +182,52 @@ impl Node {
         )
     }
 
+    /// A shape with the field `relief` added to its own.
+    ///
+    /// # Errors
+    /// If the relief is not a user's field, if no lower bound of it is found, or if the shape is a profile.
+    pub fn displacement(shape: Arc<Self>, relief: Arc<Self>) -> Result<Arc<Self>, Fault> {
+        let Shape::Field(field) = &relief.shape else {
+            return Err(Fault::new(
+                format!(
+                    "`{}` is a shape, and `displace` adds a field",
+                    relief.kind()
+                ),
+                "write a field, as in `field waves(p) { return 0.05 * sin(20 * p.x) }`",
+            ));
+        };
+        if shape.traits.is_planar {
+            return Err(Fault::new(
+                "a profile is not displaced in space",
+                "extrude it first",
+            ));
+        }
+        let lowest = range_of_graph(&field.graph, Bounds::EVERYWHERE).lo;
+        if lowest == f64::NEG_INFINITY {
+            return Err(Fault::new(
+                format!(
+                    "the field `{}` may fall without end, so the displaced shape would have no bounds",
+                    field.name
+                ),
+                "hold it between limits, as in `clamp(x, -0.2, 0.2)`",
+            ));
+        }
+        let traits = Traits {
+            class: Class::Lipschitz,
+            ..Traits::EXACT
+        };
+        let everywhere = shape.everywhere + relief.everywhere;
+        let is_regional = shape.is_regional || relief.is_regional;
+        let operands = [shape, relief];
+        let displacement = Displacement { operands, lowest };
+        Self::certified(
+            Shape::Displacement(displacement),
+            traits,
+            everywhere,
+            is_regional,
+        )
+    }
+
     fn certified(
         shape: Shape,
         traits: Traits,
@@ -182,6 +245,7 @@ impl Node {
                 .unwrap_or(0),
             Shape::Combination(_, children) => children.iter().map(|n| n.depth).max().unwrap_or(0),
             Shape::Modifier(_, child) => child.depth,
+            Shape::Displacement(d) => d.operands[0].depth.max(d.operands[1].depth),
         };
         if depth > Self::MAX_DEPTH {
             let limit = Self::MAX_DEPTH;
@@ -201,6 +265,7 @@ impl Node {
             Shape::Field(field) => field.graph.work(),
             Shape::Combination(_, children) => children.iter().map(|n| n.size).sum(),
             Shape::Modifier(_, child) => child.size,
+            Shape::Displacement(d) => d.operands[0].size + d.operands[1].size,
         };
         if size > Self::MAX_SIZE {
             return Err(too_large());
@@ -319,6 +384,7 @@ impl Node {
             Shape::Field(field) => &field.name,
             Shape::Combination(combination, _) => combination.name(),
             Shape::Modifier(modifier, _) => modifier.declaration().name,
+            Shape::Displacement(_) => "displace",
         }
     }
 
@@ -337,6 +403,7 @@ impl Node {
             }
             Shape::Combination(combination, _) => combination.blend.rule(),
             Shape::Modifier(modifier, _) => with_modifier!(modifier, m => of_modifier(m)),
+            Shape::Displacement(_) => Displacement::RULE,
         }
     }
 
@@ -353,6 +420,7 @@ impl Node {
             Shape::Field(field) => field.graph.shapes(),
             Shape::Combination(_, children) => children,
             Shape::Modifier(_, child) => std::slice::from_ref(child),
+            Shape::Displacement(d) => &d.operands,
         }
     }
 
@@ -380,6 +448,8 @@ impl Node {
             Shape::Modifier(modifier, child) => {
                 with_modifier!(modifier, m => m.sublevel(level, &|l| child.sublevel(l)))
             }
+            // Where f + g <= level, f <= level - inf g.
+            Shape::Displacement(d) => d.operands[0].sublevel((level - d.lowest).max(0.0)),
         }
     }
 
@@ -402,6 +472,7 @@ impl Node {
                 let slope = child.lipschitz_over(inner);
                 with_modifier!(modifier, m => m.lipschitz(slope, region))
             }
+            Shape::Displacement(d) => d.operands.iter().map(|o| o.lipschitz_over(region)).sum(),
         }
     }
 
@@ -425,6 +496,7 @@ impl Node {
             Shape::Modifier(modifier, child) => {
                 with_compiled_modifier!(modifier, m => m.apply(p, |q| child.evaluate(q)))
             }
+            Shape::Displacement(_) => None,
         };
         compiled.expect("what is not compiled has a graph")
     }
@@ -447,6 +519,10 @@ fn recorded(shape: &Shape) -> Option<Graph> {
         }
         Shape::Modifier(modifier, child) => {
             with_recorded_modifier!(modifier, m => record(|p| m.apply(p, |q| asked(child, q))))
+        }
+        Shape::Displacement(d) => {
+            let [shape, relief] = &d.operands;
+            Some(record(|p| asked(shape, p) + asked(relief, p)))
         }
     }
 }

@@ -25,7 +25,6 @@ pub(super) fn record(body: impl FnOnce(&Vec3<Symbol>) -> Symbol) -> Graph {
 }
 
 /// The field of `shape` at the point `p`.
-#[allow(dead_code)]
 pub(super) fn asked(shape: &Arc<Node>, p: &Vec3<Symbol>) -> Symbol {
     written(|graph| graph.shape(shape, [p.x.0, p.y.0, p.z.0]))
 }

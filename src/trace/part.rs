@@ -237,6 +237,7 @@ fn collect(node: &Node, outer: Option<&Arc<Material>>, found: &mut Vec<Option<Ar
     // Children of a user's field lend their shape, not their paint.
     let children = match node.shape() {
         Shape::Primitive(_) | Shape::Field(_) => &[][..],
+        Shape::Displacement(displacement) => &displacement.operands[..1],
         _ => node.children(),
     };
     if children.is_empty() {

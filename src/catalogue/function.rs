@@ -111,11 +111,11 @@ functions! {
 }
 
 impl Function {
-    /// How many plain operations it takes, about.
+    /// How many plain operations it takes over intervals, about.
     pub fn work(self) -> u64 {
         match self {
-            Self::Noise3 => 64,
-            Self::Voronoi3 => 256,
+            Self::Noise3 => 256,
+            Self::Voronoi3 => 1024,
             _ => 1,
         }
     }

@@ -36,7 +36,8 @@ impl Lattice {
     /// The largest slope.
     ///
     /// Noise: 3.75, at the middle of a cell whose corners pull to both sides along an axis: twice the slope 15/8 of the
-    /// fade. Over all choices of gradients no slope is larger (branch and bound over point and direction).
+    /// fade. Climbing over point, direction and all choices of gradients finds
+    /// no larger one; branch and bound shows that none is above 3.765.
     pub fn lipschitz(self) -> f64 {
         match self {
             Self::Noise => 3.75,

@@ -1,14 +1,15 @@
 //! Repetition on a grid.
 //!
-//! A copy stands in every cell. The field is the smallest over the copies whose cells are next to the point, and never
-//! more than the distance that is left to the box of any copy that was not asked: so it is continuous, keeps the
-//! constant, and is right for children that are not symmetric or stick out of their cell.
+//! A copy stands in every cell. Along an axis with spacing c, let the child's box have the width w. The nearest point of
+//! all copies is in one whose box centre is no further than (c + w) / 2 along the axis: else the next copy has the
+//! same point nearer. So K >= 1 + w / c copies, those whose boxes are the nearest along the axis, always hold it, and for
+//! an exact child the smallest of their fields is the distance to all copies. For a convex child that is the same on
+//! both sides, the field grows away from its centre, and its own cell's copy is the smallest, whatever its width.
 //!
-//! Along an axis with spacing c, let h be how far the child's box reaches from its cell's centre, and x the place in
-//! the cell, |x| <= c/2. Asked are the m copies before and the m copies after x, m the least with m c > h. Every other
-//! copy is at least m c + |x| - h away: those on the far side exactly so, the others because they lie beyond
-//! (m + 1) c - |x|, which is no less for |x| <= c/2. Where the set of asked copies changes (x = 0), the copy that leaves
-//! and the one that enters are both that far away, so the smaller of the two is continuous.
+//! For other children the copies that are not asked could be smaller still, and the field would jump where one of them
+//! is asked. There the field is never more than the distance that is left to the boxes of copies that are not asked,
+//! at least (K c - w) / 2 >= c / 2, and a copy counts at least as far as its box: so the field is continuous, keeps
+//! the constant, and is that of the union wherever that is at most half the spacing.
 
 use crate::catalogue::{Bounds, Class, Modifier, Range, Traits, declaration::entry};
 use crate::num::{Number, Vec3};
@@ -26,7 +27,7 @@ entry! {
         child: Bounds = Bounds::EVERYWHERE;
         grid: Bounds = Bounds::EVERYWHERE;
     }
-    source "copies next to the point, and the distance to the others' boxes; keeps the larger of the constant and 1"
+    source "copies around the point, and half the spacing or more for the others; keeps the larger of the constant and 1"
     example "sphere(0.2).repeat(spacing: [0.6, 0, 0.6], count: [3, 1, 3])"
 }
 
@@ -36,15 +37,18 @@ struct Row {
     spacing: f64,
     /// The number of copies, perhaps infinite.
     count: f64,
-    /// How far the child's box reaches from the centre of its cell.
-    reach: f64,
-    /// How many copies are asked on each side of the point; none where the child is symmetric and stays in its cell,
-    /// so that its own cell's copy is always the nearest.
-    asked: Option<u8>,
+    /// Where the child's box has its middle.
+    middle: f64,
+    /// The width of the child's box.
+    width: f64,
+    /// How many copies are asked: those whose boxes are nearest along the axis.
+    asked: f64,
+    /// Whether a copy that is not asked could have a smaller field than those that are.
+    is_guarded: bool,
 }
 
-/// No child may stick further out of its cell than this many cells, or too many copies would be asked.
-const MOST_ASKED: u8 = 4;
+/// Along one axis no more copies are asked than this.
+const MOST_ASKED: f64 = 9.0;
 
 impl Row {
     /// Where the grid lies: copies stand on whole multiples of the spacing for an odd or infinite count, half way
@@ -62,63 +66,75 @@ impl Row {
         0.5 * (self.count - 1.0)
     }
 
+    /// Whether there are so few copies that all of them are asked.
+    fn is_asked_whole(&self) -> bool {
+        self.count <= self.asked
+    }
+
+    /// The place of the point relative to the grid, in spacings from the copy whose box has its middle at 0.
+    #[inline(always)]
+    fn scaled<N: Number>(&self, x: N) -> N {
+        (x - N::splat(self.middle)) / N::splat(self.spacing) - N::splat(self.shift())
+    }
+
     /// The places of the point relative to the copies that are asked.
     #[inline(always)]
     fn places<N: Number>(&self, x: N, visit: &mut impl FnMut(N)) {
-        let (spacing, shift, last) = (N::splat(self.spacing), N::splat(self.shift()), self.last());
-        let scaled = x / spacing - shift;
-        let Some(m) = self.asked else {
-            let nearest = (scaled + N::splat(0.5)).floor() + shift;
-            return visit(x - nearest.clamp(N::splat(-last), N::splat(last)) * spacing);
-        };
-        if self.is_asked_whole(m) {
+        let last = self.last();
+        if self.is_asked_whole() {
             for i in 0..self.count as u32 {
                 visit(x - N::splat((f64::from(i) - last) * self.spacing));
             }
             return;
         }
+        let first = (self.scaled(x) + N::splat(1.0 - 0.5 * self.asked)).floor();
         // Near the ends the asked copies move inwards, so that none is asked twice.
-        let m = f64::from(m);
-        let before = (scaled.floor() + shift).clamp(N::splat(m - 1.0 - last), N::splat(last - m));
-        for i in 0..2 * m as u32 {
-            visit(x - (before + N::splat(1.0 - m + f64::from(i))) * spacing);
+        let (low, high) = (N::splat(-last), N::splat(last + 1.0 - self.asked));
+        let first = (first + N::splat(self.shift())).clamp(low, high);
+        for i in 0..self.asked as u32 {
+            visit(x - (first + N::splat(f64::from(i))) * N::splat(self.spacing));
         }
     }
 
-    /// Whether there are so few copies that all of them are asked.
-    fn is_asked_whole(&self, m: u8) -> bool {
-        self.count <= 2.0 * f64::from(m)
-    }
-
-    /// What is surely left to the box of any copy that is not asked, along this axis alone.
+    /// What is left to the box of any copy that is not asked, along this axis alone.
     #[inline(always)]
     fn left_over<N: Number>(&self, x: N) -> N {
-        let Some(m) = self.asked else {
-            return N::splat(f64::INFINITY);
-        };
-        if self.is_asked_whole(m) {
-            return N::splat(f64::INFINITY);
+        // Copies change places where this is whole, and the one that leaves is as far as the one that enters.
+        let place = self.scaled(x) - N::splat(0.5 * self.asked);
+        let (shift, last) = (N::splat(self.shift()), self.last());
+        let (low, high) = (N::splat(-last), N::splat(last - self.asked));
+        let change = ((place + N::splat(0.5)).floor() + shift).clamp(low, high);
+        let beside = (place + shift - change).abs() * N::splat(self.spacing);
+        N::splat(0.5 * (self.asked * self.spacing - self.width)) + beside
+    }
+
+    /// The places, relative to their copies, at which copies are asked for points from `low` to `high`.
+    fn domain(&self, low: f64, high: f64) -> (f64, f64) {
+        let (spacing, last) = (self.spacing, self.last() * self.spacing);
+        if self.is_asked_whole() {
+            return (low - last, high + last);
         }
-        let (spacing, shift, last) = (N::splat(self.spacing), N::splat(self.shift()), self.last());
-        let scaled = x / spacing - shift;
-        let nearest =
-            ((scaled + N::splat(0.5)).floor() + shift).clamp(N::splat(-last), N::splat(last));
-        let beside = (x - nearest * spacing).abs();
-        N::splat(f64::from(m) * self.spacing - self.reach) + beside
+        // Around the middle while the asked copies go along with the point; further off next to the ends.
+        let reach = 0.5 * self.asked * spacing;
+        let within = (self.asked - 1.0) * spacing;
+        (
+            (self.middle - reach).min(low + last - within),
+            (self.middle + reach).max(high - last + within),
+        )
     }
 }
 
 impl Repeat {
     /// Whether some copies are not asked though they could be the nearest.
     fn is_guarded(&self) -> bool {
-        self.axes.iter().flatten().any(|row| row.asked.is_some())
+        self.axes.iter().flatten().any(|row| row.is_guarded)
     }
 
     /// What is surely left from `p` to the box of any copy that is not asked along `axis`: all copies lie inside of the
     /// grid along the other axes.
     #[inline(always)]
     fn guard<N: Number>(&self, axis: usize, p: &Vec3<N>) -> N {
-        let Some(row) = &self.axes[axis] else {
+        let Some(row) = self.axes[axis].as_ref().filter(|row| row.is_guarded) else {
             return N::splat(f64::INFINITY);
         };
         let gap = |axis: usize| gap_to(&self.grid, axis, p.component(axis));
@@ -148,8 +164,8 @@ fn gap_to<N: Number>(bounds: &Bounds, axis: usize, x: N) -> N {
 }
 
 impl Modifier for Repeat {
-    const RULE: &'static str = "a copy of the child, or the distance to the boxes of copies not asked, whichever is smaller: the larger of \
-         the child's constant and 1";
+    const RULE: &'static str = "the smallest of the child's copies, or what is left to those not asked: the larger of the child's \
+         constant and 1";
 
     #[inline(always)]
     fn apply<N: Number>(&self, p: &Vec3<N>, child: impl Fn(&Vec3<N>) -> N) -> N {
@@ -187,25 +203,16 @@ impl Modifier for Repeat {
         if !self.is_guarded() {
             return self.extended(copies);
         }
-        // The guard can be as low as the distance to the boxes of copies, and to the places where copies stand, whether
-        // or not their boxes are there.
-        let mut reach = self.child;
-        for axis in (0..3).filter(|axis| self.axes[*axis].is_some()) {
-            reach.low[axis] = reach.low[axis].min(0.0);
-            reach.high[axis] = reach.high[axis].max(0.0);
-        }
-        self.extended(copies.hull(reach.inflate(level)))
+        // The guard can be as low as the distance to the boxes of copies.
+        self.extended(copies.hull(self.child.inflate(level)))
     }
 
     fn domain(&self, region: Bounds) -> Bounds {
         let mut domain = region;
         for (axis, row) in self.axes.iter().enumerate() {
             if let Some(row) = row {
-                let reach = row.spacing * (2.0 * f64::from(row.asked.unwrap_or(0)) + 0.5);
-                let end = row.last() * row.spacing;
-                // Inside the grid a place is at most `reach` from any asked copy; past its ends it is further.
-                domain.low[axis] = -reach + (region.low[axis] + end).min(0.0);
-                domain.high[axis] = reach + (region.high[axis] - end).max(0.0);
+                (domain.low[axis], domain.high[axis]) =
+                    row.domain(region.low[axis], region.high[axis]);
             }
         }
         domain
@@ -231,14 +238,7 @@ impl Modifier for Repeat {
     }
 
     fn check(&self) -> Result<(), (&'static str, String)> {
-        if self
-            .count
-            .iter()
-            .all(|n| n.is_infinite() || (*n >= 1.0 && n.fract() == 0.0))
-        {
-            return Ok(());
-        }
-        Err(("count", "must be whole numbers, 1 or more".into()))
+        whole_counts(&self.count)
     }
 
     fn fit(
@@ -252,21 +252,30 @@ impl Modifier for Repeat {
             if spacing == 0.0 || count == 1.0 || self.child.is_empty() {
                 continue;
             }
-            let reach = self.child.high[axis].max(-self.child.low[axis]).max(0.0);
-            let asked = if child.is_symmetric[axis] && 2.0 * reach <= spacing {
-                None
+            let (low, high) = (self.child.low[axis], self.child.high[axis]);
+            let reach = high.max(-low);
+            let is_own = child.is_symmetric[axis] && (child.is_convex || 2.0 * reach <= spacing);
+            let width = high - low;
+            let least = if is_own {
+                1.0
             } else {
-                let least = (reach / spacing).floor() + 1.0;
-                if least > f64::from(MOST_ASKED) {
-                    return Err(too_large(axis, reach, spacing));
-                }
-                Some(least as u8)
+                (1.0 + width / spacing).ceil()
             };
+            let asked = least.min(count);
+            if asked > MOST_ASKED {
+                return Err(too_large(axis, width, spacing));
+            }
             self.axes[axis] = Some(Row {
                 spacing,
                 count,
-                reach,
+                middle: if asked == least && !is_own {
+                    0.5 * (low + high)
+                } else {
+                    0.0
+                },
+                width,
                 asked,
+                is_guarded: !is_own && asked < count && child.class < Class::Exact,
             });
         }
         self.grid = self.extended(self.child);
@@ -274,10 +283,19 @@ impl Modifier for Repeat {
     }
 }
 
-fn too_large(axis: usize, reach: f64, spacing: f64) -> (String, String) {
-    let name = crate::catalogue::AXES[axis];
+/// That every count is a whole number.
+pub(super) fn whole_counts(count: &[f64; 3]) -> Result<(), (&'static str, String)> {
+    let is_whole = |n: &f64| n.is_infinite() || (*n >= 1.0 && n.fract() == 0.0);
+    if count.iter().all(is_whole) {
+        return Ok(());
+    }
+    Err(("count", "must be whole numbers, 1 or more".into()))
+}
+
+fn too_large(axis: usize, width: f64, spacing: f64) -> (String, String) {
+    let (name, most) = (crate::catalogue::AXES[axis], MOST_ASKED - 1.0);
     let problem = format!(
-        "the shape reaches {reach} from its origin along {name}, more than {MOST_ASKED} times the spacing {spacing}"
+        "the shape is {width} wide along {name}, more than {most} times the spacing {spacing}"
     );
     (
         problem,

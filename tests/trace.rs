@@ -98,7 +98,10 @@ fn zoo() -> Vec<(&'static str, Arc<Node>)> {
         ("torus", tilted(&torus)),
         (
             "extruded polygon",
-            tilted(&modified(AnyModifier::Extrude(Extrude::new(0.7)), &profile)),
+            tilted(&modified(
+                AnyModifier::Extrude(Extrude::new(0.7, 0.0, 1.0)),
+                &profile,
+            )),
         ),
         (
             "revolved polygon",

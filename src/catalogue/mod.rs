@@ -35,7 +35,8 @@ pub use facts::{Class, Traits};
 pub use function::Function;
 pub use modifier::{Modifier, Similarity};
 pub use modifiers::{
-    Extrude, Mirror, Offset, Repeat, Revolve, Rotate, Scale, Shell, Translate, Twist,
+    Bend, Elongate, Extrude, Mirror, MirroredRepeat, Offset, Polar, Repeat, Revolve, Rotate, Scale,
+    Shear, Shell, Taper, Translate, Twist,
 };
 pub use primitive::Primitive;
 pub use profiles::{
@@ -65,7 +66,7 @@ declaration::list!($
     /// Any modifier of the catalogue.
     AnyModifier, with_modifier, with_compiled_modifier, with_recorded_modifier:
     Translate, Rotate, Scale, Mirror, Repeat, Twist, Offset, Shell, Extrude, Revolve;
-    recorded
+    recorded Bend, Taper, Shear, Elongate, Polar, MirroredRepeat
 );
 
 declaration::list!($

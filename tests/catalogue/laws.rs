@@ -288,7 +288,8 @@ pub fn regional(node: &Node, dice: &mut Dice) -> Law {
     Ok(())
 }
 
-/// A finite repetition has the inside of the union of its copies, and keeps its Lipschitz constant.
+/// A finite repetition is the union of its copies: everywhere for an exact child, else at least on the inside and as far
+/// as half the spacing. It keeps the Lipschitz constant.
 pub fn repeated_is_union(node: &Node, dice: &mut Dice) -> Law {
     let spacing: [f64; 3] = std::array::from_fn(|_| dice.between(0.4, 2.0));
     let count: [f64; 3] = std::array::from_fn(|_| 1.0 + dice.below(5) as f64);
@@ -311,31 +312,129 @@ pub fn repeated_is_union(node: &Node, dice: &mut Dice) -> Law {
                 }
             }
         }
-        let found = value(&repeated, p);
-        // Inside the same; outside no further than the nearest copy.
-        let is_same_side = (found < 0.0) == (nearest < 0.0) || nearest.abs() < 1e-12;
-        let lipschitz = node.lipschitz().max(1.0);
-        let allowed = if node.class() >= Class::Bound {
-            nearest.max(0.0) * lipschitz
-        } else {
-            f64::INFINITY
-        };
-        if !is_same_side
-            || (nearest > 0.0 && found > allowed.max(nearest) + box_slack(node, p) + 1e-12)
-        {
-            return Err(format!(
-                "{found} but the copies say {nearest} at {p:?}; spacing {spacing:?} count {count:?}"
-            ));
-        }
+        let least = spacing.into_iter().fold(f64::INFINITY, f64::min);
+        same_as_union(node, value(&repeated, p), nearest, 0.5 * least)
+            .map_err(|why| format!("{why} at {p:?}; spacing {spacing:?} count {count:?}"))?;
     }
     lipschitz(&repeated, dice)
 }
 
-/// By how much the distance to a copy's box can exceed the copy's own field.
-fn box_slack(node: &Node, _: [f64; 3]) -> f64 {
-    if node.class() == Class::Exact {
-        0.0
+/// Whether `found` is what a union of copies of `node` has, of which the smallest field is `nearest`: the same for an
+/// exact node; else of the same sign, and no less than the smaller of `nearest` and `reach`.
+fn same_as_union(node: &Node, found: f64, nearest: f64, reach: f64) -> Law {
+    let is_same = if node.class() == Class::Exact {
+        (found - nearest).abs() < 1e-12
     } else {
-        f64::INFINITY
+        let is_same_side = (found < 0.0) == (nearest < 0.0) || nearest.abs() < 1e-12;
+        is_same_side && found >= nearest.min(reach) - 1e-12
+    };
+    if is_same {
+        return Ok(());
     }
+    Err(format!("{found} but the copies say {nearest}"))
+}
+
+/// Copies around an axis are the union of turned copies.
+pub fn polar_is_union(node: &Node, dice: &mut Dice) -> Law {
+    let (count, axis) = (1 + dice.below(9), dice.below(3));
+    let polar = AnyModifier::Polar(Polar::new(count as f64, Axis(axis)));
+    let child = std::sync::Arc::new(node.clone());
+    let whole = Node::modifier(polar, child.clone()).map_err(|fault| fault.message)?;
+    let mut direction = [0.0; 3];
+    direction[axis] = 1.0;
+    let copies: Vec<_> = (0..count)
+        .map(|i| {
+            let angle = std::f64::consts::TAU * i as f64 / count as f64;
+            let rotate = AnyModifier::Rotate(Rotate::new(angle, direction, 0.0, 0.0, 0.0));
+            Node::modifier(rotate, child.clone()).expect("anything turns")
+        })
+        .collect();
+    let is_plain = !(0..3).any(|i| i != axis && node.traits().is_symmetric[i]);
+    for _ in 0..60 {
+        let p = dice.point(&Bounds::centred([2.0; 3]));
+        let nearest = copies
+            .iter()
+            .map(|c| value(c, p))
+            .fold(f64::INFINITY, f64::min);
+        let found = value(&whole, p);
+        let is_same = !is_plain || (found - nearest).abs() < 1e-12;
+        same_as_union(node, found, nearest, f64::INFINITY)
+            .and(if is_same {
+                Ok(())
+            } else {
+                Err(format!("{found}, not {nearest}"))
+            })
+            .map_err(|why| format!("{why} at {p:?}; {count} copies about {axis}"))?;
+    }
+    lipschitz(&whole, dice)
+}
+
+/// An endless mirrored repetition has the field at the point that reflections bring into the middle cell.
+pub fn mirrored_is_reflected(node: &Node, dice: &mut Dice) -> Law {
+    let spacing: [f64; 3] = std::array::from_fn(|_| dice.between(0.4, 2.0));
+    let child = std::sync::Arc::new(node.clone());
+    let made = |count: [f64; 3]| {
+        let modifier = AnyModifier::MirroredRepeat(MirroredRepeat::new(spacing, count));
+        Node::modifier(modifier, child.clone()).expect("anything is repeated")
+    };
+    let (endless, three) = (made([f64::INFINITY; 3]), made([3.0; 3]));
+    for _ in 0..60 {
+        let p = dice.point(&Bounds::centred([3.0; 3]));
+        let reflected = |most: u32| -> [f64; 3] {
+            std::array::from_fn(|i| {
+                let (mut x, c) = (p[i], spacing[i]);
+                for _ in 0..most {
+                    if x.abs() > 0.5 * c {
+                        x = c.copysign(x) - x;
+                    }
+                }
+                x
+            })
+        };
+        for (whole, most) in [(&endless, 100), (&three, 1)] {
+            let (found, expected) = (value(whole, p), value(node, reflected(most)));
+            if (found - expected).abs() > 1e-12 {
+                return Err(format!(
+                    "{found}, not {expected} at {p:?}; {most} reflections"
+                ));
+            }
+        }
+    }
+    lipschitz(&endless, dice)?;
+    lipschitz(&made([2.0, 4.0, 5.0]), dice)
+}
+
+/// The box of a modified box or rectangle is touched on every side by what it holds, but for a tenth of its size.
+pub fn touched(modifier: &AnyModifier, dice: &mut Dice) -> Law {
+    let leaf = AnyPrimitive::Cuboid(Cuboid::new([0.8, 1.2, 0.6], 0.0));
+    let profile = AnyPrimitive::Rectangle(Rectangle::new([0.8, 1.2], 0.0));
+    let made = |leaf| {
+        Node::modifier(
+            modifier.clone(),
+            Node::primitive(leaf).expect("a valid leaf"),
+        )
+    };
+    let Ok(node) = made(leaf).or_else(|_| made(profile)) else {
+        return Ok(());
+    };
+    let bounds = node.bounds();
+    // A shape that shrinks keeps its box: boxes are known for levels from 0 on.
+    let shrinks = matches!(modifier, AnyModifier::Offset(o) if o.by < 0.0);
+    if bounds.is_empty() || !bounds.is_finite() || shrinks {
+        return Ok(());
+    }
+    for side in 0..6 {
+        let (axis, is_high) = (side % 3, side >= 3);
+        let mut slab = bounds;
+        let tenth = 0.1 * bounds.size()[axis];
+        if is_high {
+            slab.low[axis] = slab.high[axis] - tenth;
+        } else {
+            slab.high[axis] = slab.low[axis] + tenth;
+        }
+        if !(0..60_000).any(|_| value(&node, dice.point(&slab)) <= 0.0) {
+            return Err(format!("nothing at side {side} of {bounds:?}"));
+        }
+    }
+    Ok(())
 }

@@ -62,8 +62,8 @@ fn modified_by_entry(
     position: Option<u64>,
 ) -> Vec<(&'static str, &'static str, String, Arc<Node>)> {
     let mut all = Vec::new();
-    for (i, (primitive, name, leaf)) in leaves(1).into_iter().enumerate() {
-        let mut dice = Dice::new(1000 + i as u64);
+    for (primitive, name, leaf) in leaves(1) {
+        let mut dice = Dice::new(samples::seed_of(primitive));
         let height = dice.between(0.2, 1.0);
         let place = |node: Arc<Node>| match position {
             Some(seed) => placed(node, &mut Dice::new(seed)),
@@ -197,6 +197,30 @@ fn every_declaration_is_complete() {
     let count = names.len();
     names.dedup();
     assert_eq!(names.len(), count, "two entries share a name");
+}
+
+#[test]
+fn boxes_of_modified_shapes_are_tight() {
+    let mut broken = Vec::new();
+    for seed in 0..4 {
+        let mut dice = Dice::new(seed);
+        for modifier in modifiers(&mut dice) {
+            if let Err(why) = laws::touched(&modifier, &mut dice) {
+                broken.push(format!("{modifier:?} (seed {seed}): {why}"));
+            }
+        }
+    }
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+}
+
+#[test]
+fn copies_around_an_axis_are_what_a_union_shows() {
+    for_all(&nodes(), laws::polar_is_union);
+}
+
+#[test]
+fn mirrored_copies_are_reflections() {
+    for_all(&nodes(), laws::mirrored_is_reflected);
 }
 
 #[test]

@@ -103,6 +103,12 @@ pub fn arguments(declaration: &Declaration, dice: &mut Dice) -> Vec<Argument> {
             ("count", Some(_)) => {
                 Argument::Vector3([0; 3].map(|_: i32| 1.0 + dice.below(5) as f64))
             }
+            ("count", None) => Argument::Number(1.0 + dice.below(7) as f64),
+            // A shape leans across the axis y.
+            ("by", None) if declaration.name == "shear" => {
+                Argument::Vector3([dice.between(-1.2, 1.2), 0.0, dice.between(-1.2, 1.2)])
+            }
+            ("axis", Some(_)) if declaration.name == "shear" => Argument::Axis(1),
             ("spacing", None) => Argument::Vector3([0; 3].map(|_: i32| dice.between(0.5, 2.5))),
             _ => argument(p, dice),
         })
@@ -148,7 +154,7 @@ pub fn leaves(n: u64) -> Vec<(&'static str, String, Arc<Node>)> {
 pub fn placed(node: Arc<Node>, dice: &mut Dice) -> Arc<Node> {
     let (angle, is_planar) = (dice.between(0.3, 2.8), node.traits().is_planar);
     let axis: [f64; 3] = std::array::from_fn(|_| dice.between(-1.0, 1.0));
-    let shift: [f64; 3] = std::array::from_fn(|_| dice.between(-0.3, 0.3));
+    let shift: [f64; 3] = std::array::from_fn(|_| dice.between(-0.9, 0.9));
     let [axis, shift] = if is_planar {
         [[0.0, 0.0, 1.0], [shift[0], shift[1], 0.0]]
     } else {
@@ -165,7 +171,7 @@ pub fn in_space(node: Arc<Node>, height: f64) -> Arc<Node> {
     if !node.traits().is_planar {
         return node;
     }
-    let extrude = AnyModifier::Extrude(Extrude::new(height));
+    let extrude = AnyModifier::Extrude(Extrude::new(height, 0.0, 1.0));
     Node::modifier(extrude, node).expect("a profile can be extruded")
 }
 
@@ -178,12 +184,21 @@ pub fn instances(n: u64) -> Vec<(String, Arc<Node>)> {
         .collect()
 }
 
-/// One random instance of every modifier.
+/// A seed for a name, so that the cases of one entry do not change with what else is listed.
+pub fn seed_of(name: &str) -> u64 {
+    name.bytes().fold(0, |seed: u64, byte| {
+        seed.wrapping_mul(31).wrapping_add(byte.into())
+    })
+}
+
+/// One random instance of every modifier, each with numbers of its own.
 pub fn modifiers(dice: &mut Dice) -> Vec<AnyModifier> {
-    tried(AnyModifier::DECLARATIONS)
-        .iter()
-        .map(|d| AnyModifier::from_arguments(d.name, &arguments(d, dice)).expect("listed by name"))
-        .collect()
+    let seed = (1e9 * dice.unit()) as u64;
+    let made = |d: &&'static Declaration| {
+        let mut own = Dice::new(seed.wrapping_add(seed_of(d.name)));
+        AnyModifier::from_arguments(d.name, &arguments(d, &mut own)).expect("listed by name")
+    };
+    tried(AnyModifier::DECLARATIONS).iter().map(made).collect()
 }
 
 /// One random instance of every blend.

@@ -31,7 +31,7 @@ const Y: [f64; 3] = [0.0, 1.0, 0.0];
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 /// Sine and cosine, exact at quarter turns.
-fn sin_cos(angle: f64) -> (f64, f64) {
+pub(super) fn sin_cos(angle: f64) -> (f64, f64) {
     let quarters = angle / std::f64::consts::FRAC_PI_2;
     let nearest = quarters.round();
     if (quarters - nearest).abs() > 4.0 * f64::EPSILON * nearest.abs().max(1.0) {

@@ -24,7 +24,8 @@ impl Scale {
 }
 
 impl Modifier for Scale {
-    const RULE: &'static str = "s f(p / s) keeps the constant, with s the smallest factor: the matrix diag(1 / s) has          norm 1 / min(s)";
+    const RULE: &'static str = "s f(p / s) keeps the constant, with s the smallest factor: the matrix diag(1 / s) has norm \
+         1 / min(s)";
 
     #[inline(always)]
     fn apply<N: Number>(&self, p: &Vec3<N>, child: impl Fn(&Vec3<N>) -> N) -> N {

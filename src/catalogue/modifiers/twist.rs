@@ -1,5 +1,6 @@
 //! Twist.
 
+use super::sweep::{largest_stretch, swept};
 use crate::catalogue::{Bounds, Class, Modifier, Range, Traits, declaration::entry};
 use crate::num::{Number, Vec3};
 
@@ -14,14 +15,19 @@ entry! {
 }
 
 impl Twist {
-    /// The largest distance from the axis in `region`.
-    fn radius(region: &Bounds) -> f64 {
-        region.reach(0).hypot(region.reach(2))
+    /// A box around what becomes of `bounds`, turned by the angles of its heights times `sign`.
+    fn turned(&self, bounds: Bounds, sign: f64) -> Bounds {
+        if bounds.is_empty() || self.rate == 0.0 {
+            return bounds;
+        }
+        let turns = [bounds.low[1], bounds.high[1]].map(|y| sign * self.rate * y);
+        swept(bounds, 1, turns, [1.0; 2])
     }
 }
 
 impl Modifier for Twist {
-    const RULE: &'static str = "times s/2 + sqrt(1 + s^2/4), s = |rate| r with r the largest distance from the axis: the norm of          the Jacobian of a shear by s";
+    const RULE: &'static str = "times s/2 + sqrt(1 + s^2/4), s = |rate| r with r the largest distance from the axis: the norm of \
+         the Jacobian of a shear by s";
 
     #[inline(always)]
     fn apply<N: Number>(&self, p: &Vec3<N>, child: impl Fn(&Vec3<N>) -> N) -> N {
@@ -31,23 +37,19 @@ impl Modifier for Twist {
     }
 
     fn sublevel(&self, level: f64, child: &dyn Fn(f64) -> Bounds) -> Bounds {
-        self.domain(child(level))
+        self.turned(child(level), 1.0)
     }
 
     fn domain(&self, region: Bounds) -> Bounds {
-        if region.is_empty() || self.rate == 0.0 {
-            return region;
-        }
-        let r = Self::radius(&region);
-        Bounds::new([-r, region.low[1], -r], [r, region.high[1], r])
+        self.turned(region, -1.0)
     }
 
     fn lipschitz(&self, child: f64, region: Bounds) -> f64 {
         if self.rate == 0.0 {
             return child;
         }
-        let s = self.rate.abs() * Self::radius(&region);
-        child * (0.5 * s + (1.0 + 0.25 * s * s).sqrt())
+        let radius = region.reach(0).hypot(region.reach(2));
+        child * largest_stretch(1.0, self.rate.abs() * radius)
     }
 
     fn is_regional(&self) -> bool {

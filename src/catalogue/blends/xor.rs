@@ -7,7 +7,7 @@ entry! {
     /// What is in one of two shapes but not in both; of several, what is in an odd number of them.
     Xor = "xor" {}
     source "max(min(a, b), -max(a, b)), Quilez, distance functions (xor); Lipschitz rule: the largest constant of the shapes"
-    example "xor(sphere(1), box(1.5))"
+    example "xor(sphere(1), box(1.5)) - box(2).translate([1, 1, 1])"
 }
 
 impl Blend for Xor {

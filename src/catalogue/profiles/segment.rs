@@ -18,7 +18,7 @@ entry! {
         edge: Edge = Edge::new(a, b);
     }
     source "Quilez, 2D distance functions (segment); a distance, so its constant is 1"
-    example "segment([-0.5, 0], [0.5, 0.3], 0.2).extrude(0.2)"
+    example "segment([-0.7, -0.2], [0.7, 0.3], 0.3).extrude(0.3)"
 }
 
 impl Primitive for Segment {

@@ -6,48 +6,59 @@ mod ascent;
 mod blends;
 mod implicit;
 mod laws;
+mod regressions;
 mod samples;
+#[path = "../stub/mod.rs"]
+mod stub;
 mod tightness;
+mod trees;
 
-use fieldstone::catalogue::Combination;
+use fieldstone::catalogue::{AnyBlend, Combination, Manner, Operation};
 use fieldstone::scene::Node;
-use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
 use samples::{Dice, in_space, instances, leaves, modifiers, nodes, placed};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
+
+/// Does something on all processors, with stacks that are large enough for deep trees in builds without optimization.
+fn spread<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    static POOL: OnceLock<ThreadPool> = OnceLock::new();
+    let pool = || {
+        let builder = ThreadPoolBuilder::new().stack_size(64 << 20);
+        builder.build().expect("threads")
+    };
+    POOL.get_or_init(pool).install(work)
+}
+
+/// Tries cases number 0 to `n`, of which none may say what is wrong.
+fn none_is_wrong(n: usize, try_one: impl Fn(usize) -> Option<String> + Sync + Send) {
+    assert!(n > 0);
+    let wrong: Vec<String> = spread(|| (0..n).into_par_iter().filter_map(try_one).collect());
+    let first = wrong[..wrong.len().min(12)].join("\n");
+    assert!(wrong.is_empty(), "{} of {n}:\n{first}", wrong.len());
+}
 
 /// Runs `law` on many nodes and names the node and seed that break it.
 fn for_all(
     nodes: &[(String, Arc<Node>)],
     law: impl Fn(&Node, &mut Dice) -> Result<(), String> + Sync,
 ) {
-    assert!(!nodes.is_empty());
-    let broken: Vec<String> = nodes
-        .par_iter()
-        .enumerate()
-        .filter_map(|(i, (name, node))| {
-            let mut dice = Dice::new(i as u64);
-            law(node, &mut dice)
-                .err()
-                .map(|why| format!("{name} (seed {i}): {why}"))
-        })
-        .collect();
-    assert!(
-        broken.is_empty(),
-        "{} of {}:\n{}",
-        broken.len(),
-        nodes.len(),
-        broken[..broken.len().min(12)].join("\n")
-    );
+    none_is_wrong(nodes.len(), |i| {
+        let (name, node) = &nodes[i];
+        let why = law(node, &mut Dice::new(i as u64)).err()?;
+        Some(format!("{name} (seed {i}): {why}"))
+    });
 }
 
-/// Every primitive with several random parameters, every modifier over every primitive, every combination of pairs,
-/// and random trees.
+/// Every primitive with several random parameters, and every modifier over every primitive.
 fn zoo() -> Vec<(String, Arc<Node>)> {
     let mut all = instances(4);
     all.extend(modified());
-    all.extend(combined());
-    all.extend((0..400).filter_map(samples::random_tree));
     all
+}
+
+/// Random trees by their seeds.
+fn trees(seeds: std::ops::Range<u64>) -> Vec<(String, Arc<Node>)> {
+    spread(|| seeds.into_par_iter().map(trees::random_tree).collect())
 }
 
 fn modified() -> Vec<(String, Arc<Node>)> {
@@ -86,52 +97,87 @@ fn modified_by_entry(
     all
 }
 
-/// Every ordered pair as hard sets and by some of the blends, so that each blend meets all shapes in all its uses.
-fn combined() -> Vec<(String, Arc<Node>)> {
+/// What is quick to check of a node, with few samples: there are many.
+fn cheap_laws(node: &Node, dice: &mut Dice) -> Result<(), String> {
+    laws::lipschitz(node, dice, 12)?;
+    laws::bounded(node, dice, 10)?;
+    laws::gradient(node, dice, 1)?;
+    laws::enclosed(node, dice, 2)
+}
+
+/// Whether the order of two shapes does not matter.
+fn is_even(blend: &AnyBlend, operation: Operation) -> bool {
+    blend.manner() == Manner::Seam && operation != Operation::Difference
+}
+
+/// Every operation with every blend on every pair of primitives. Where the order does not matter, each pair once.
+#[test]
+fn every_combination_of_every_pair_obeys_the_cheap_laws() {
     let leaves = instances(1);
-    let skip = if leaves.len() < 8 { 1 } else { 12 };
-    let mut all = Vec::new();
-    for (i, (a_name, a)) in leaves.iter().enumerate() {
-        for (j, (b_name, b)) in leaves.iter().enumerate() {
-            let mut dice = Dice::new(3000 + (i * leaves.len() + j) as u64);
-            let uses = samples::blends(&mut dice).into_iter().flat_map(|blend| {
-                samples::operations(&blend)
-                    .into_iter()
-                    .map(move |o| (o, blend.clone()))
-            });
-            for (k, (operation, blend)) in uses.enumerate() {
-                if !blend.is_hard() && !(i + 5 * j + k).is_multiple_of(skip) {
-                    continue;
-                }
-                let combination = Combination { operation, blend };
-                let name = format!("{operation:?}({a_name}, {b_name}, {:?})", combination.blend);
-                if let Ok(node) = Node::combination(combination, vec![a.clone(), b.clone()]) {
-                    all.push((name, node));
-                }
-            }
-        }
-    }
-    all
+    let n = leaves.len();
+    none_is_wrong(n * n, |pair| {
+        let mut dice = Dice::new(pair as u64);
+        let (i, j) = (pair / n, pair % n);
+        let [(a_name, a), (b_name, b)] = [&leaves[i], &leaves[j]];
+        samples::blends(&mut dice).iter().find_map(|blend| {
+            samples::operations(blend)
+                .into_iter()
+                .find_map(|operation| {
+                    if is_even(blend, operation) && i > j {
+                        return None;
+                    }
+                    let combination = Combination {
+                        operation,
+                        blend: blend.clone(),
+                    };
+                    let why = Node::combination(combination, vec![a.clone(), b.clone()])
+                        .map_err(|fault| fault.message)
+                        .and_then(|node| cheap_laws(&node, &mut dice))
+                        .err()?;
+                    Some(format!(
+                        "{operation:?}({a_name}, {b_name}, {blend:?}): {why}"
+                    ))
+                })
+        })
+    });
+}
+
+/// How many random trees are tried; their seeds are 0, 1, 2, ...
+const TREES: u64 = 10_000;
+
+#[test]
+fn ten_thousand_random_trees_obey_the_cheap_laws() {
+    none_is_wrong(TREES as usize, |seed| {
+        let (words, node) = trees::random_tree(seed as u64);
+        let mut dice = Dice::new(seed as u64);
+        let why = cheap_laws(&node, &mut dice)
+            .and_then(|()| laws::regional(&node, &mut dice, 4))
+            .err()?;
+        Some(format!("{words}\n  {why}"))
+    });
 }
 
 #[test]
 fn slopes_stay_below_the_lipschitz_constant() {
-    for_all(&zoo(), laws::lipschitz);
+    for_all(&zoo(), |node, dice| laws::lipschitz(node, dice, 120));
 }
 
 #[test]
 fn bounds_hold_the_solid() {
-    for_all(&zoo(), laws::bounded);
+    for_all(&zoo(), |node, dice| laws::bounded(node, dice, 300));
 }
 
 #[test]
 fn fields_are_no_larger_than_the_distance() {
-    for_all(&instances(3), laws::below_distance);
-    for_all(&modified(), laws::below_distance);
-    for_all(
-        &(0..40).filter_map(samples::random_tree).collect::<Vec<_>>(),
-        laws::below_distance,
-    );
+    for_all(&instances(3), |node, dice| {
+        laws::below_distance(node, dice, 200)
+    });
+    for_all(&modified(), |node, dice| {
+        laws::below_distance(node, dice, 40)
+    });
+    for_all(&trees(0..300), |node, dice| {
+        laws::below_distance(node, dice, 40)
+    });
 }
 
 #[test]
@@ -147,32 +193,30 @@ fn exact_fields_are_the_distance() {
 
 #[test]
 fn gradients_are_differences() {
-    for_all(&zoo(), laws::gradient);
+    for_all(&zoo(), |node, dice| laws::gradient(node, dice, 30));
 }
 
 #[test]
 fn intervals_contain_samples() {
-    for_all(&zoo(), laws::enclosed);
+    for_all(&zoo(), |node, dice| laws::enclosed(node, dice, 21));
 }
 
 #[test]
 fn closures_lanes_and_levels_give_the_same_bits() {
     for_all(&instances(2), laws::same_bits);
     for_all(&modified(), laws::same_bits);
-    for_all(
-        &(0..60).filter_map(samples::random_tree).collect::<Vec<_>>(),
-        laws::same_bits,
-    );
+    for_all(&trees(0..100), laws::same_bits);
 }
 
 #[test]
 fn closures_are_the_walked_tree() {
-    for_all(&zoo(), laws::walked);
+    for_all(&zoo(), |node, dice| laws::walked(node, dice, 20));
+    for_all(&trees(0..300), |node, dice| laws::walked(node, dice, 20));
 }
 
 #[test]
 fn regional_constants_hold_on_their_region() {
-    for_all(&modified(), laws::regional);
+    for_all(&zoo(), |node, dice| laws::regional(node, dice, 30));
 }
 
 #[test]

@@ -217,42 +217,6 @@ pub fn operations(blend: &AnyBlend) -> Vec<Operation> {
     }
 }
 
-/// A random tree of a few operations, named by its seed.
-pub fn random_tree(seed: u64) -> Option<(String, Arc<Node>)> {
-    let mut dice = Dice::new(seed ^ 0xabcd_ef01);
-    let leaves = instances(1);
-    let node = branch(&mut dice, &leaves, 4)?;
-    Some((format!("random tree {seed}"), node))
-}
-
-fn branch(dice: &mut Dice, leaves: &[(String, Arc<Node>)], depth: u32) -> Option<Arc<Node>> {
-    if depth == 0 || dice.unit() < 0.2 {
-        return Some(leaves[dice.below(leaves.len())].1.clone());
-    }
-    if dice.unit() < 0.5 {
-        let child = branch(dice, leaves, depth - 1)?;
-        let all = modifiers(dice);
-        let modifier = all[dice.below(all.len())].clone();
-        return Node::modifier(modifier, child.clone()).ok().or(Some(child));
-    }
-    let blend = if dice.unit() < 0.5 {
-        AnyBlend::HARD
-    } else {
-        let all = blends(dice);
-        all[dice.below(all.len())].clone()
-    };
-    let count = match blend.manner() {
-        Manner::Pair => 2,
-        Manner::Seam | Manner::Several => 2 + dice.below(2),
-    };
-    let children: Option<Vec<_>> = (0..count)
-        .map(|_| branch(dice, leaves, depth - 1))
-        .collect();
-    let all = operations(&blend);
-    let operation = all[dice.below(all.len())];
-    Node::combination(Combination { operation, blend }, children?).ok()
-}
-
 /// Small asymmetric shapes and shapes larger than a cell, for repetition.
 pub fn nodes() -> Vec<(String, Arc<Node>)> {
     let mut all = instances(2);

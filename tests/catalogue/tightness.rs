@@ -279,10 +279,12 @@ fn slacks() -> &'static Slacks {
     static FOUND: std::sync::OnceLock<Slacks> = std::sync::OnceLock::new();
     FOUND.get_or_init(|| {
         let mut slacks = Slacks::new();
-        of_primitives(&mut slacks);
-        of_modifiers(&mut slacks);
-        of_blends(&mut slacks);
-        of_pairs(&mut slacks);
+        super::spread(|| {
+            of_primitives(&mut slacks);
+            of_modifiers(&mut slacks);
+            of_blends(&mut slacks);
+            of_pairs(&mut slacks);
+        });
         slacks
     })
 }

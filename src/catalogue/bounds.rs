@@ -120,6 +120,15 @@ impl Bounds {
         x.hypot(y).hypot(z)
     }
 
+    /// The radius of the smallest sphere that holds the box; 0 for an empty box.
+    pub fn radius_about_centre(&self) -> f64 {
+        if self.is_empty() {
+            return 0.0;
+        }
+        let [x, y, z] = self.size();
+        0.5 * x.hypot(y).hypot(z)
+    }
+
     /// The largest absolute value of any coordinate that is finite; 0 where there is none.
     pub fn finite_size(&self) -> f64 {
         let sides = self.low.iter().chain(&self.high);

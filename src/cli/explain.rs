@@ -6,7 +6,7 @@ use super::outline::{bounds_in_words, object_name, short};
 use super::script::{Script, compile};
 use crate::catalogue::{Bounds, Combination, Operation};
 use crate::field::Level;
-use crate::scene::{Node, Scene, Shape};
+use crate::scene::{Node, Scene, Shape, sampled_supremum};
 use crate::shade::Features;
 use crate::trace::World;
 use clap::Args;
@@ -25,9 +25,10 @@ const MAX_NODES: usize = 100_000;
 
 const AFTER_HELP: &str = "\
 For each shape: what it is and its name; its class (exact: the field is the distance; bound: at most the distance; \
-lipschitz: at most the distance times the constant); a Lipschitz constant of its field on its bounds; a box that \
-holds it. Then the rule behind each constant, how rays find the parts of the scene, and which features it compiled \
-in: what a scene does not use costs nothing.
+lipschitz: at most the distance times the constant); a Lipschitz constant of its field; where that holds (everywhere, \
+or on the bounds); the steepest slope that sampling found there; the slack, which is constant / slope; a box that \
+holds the shape. Then the rule behind each constant, how rays find the parts of the scene, and which features it \
+compiled in: what a scene does not use costs nothing.
 
 Large trees are cut; --json has all of it, up to 100 000 nodes.
 
@@ -78,34 +79,100 @@ fn in_words(scene: &Scene, world: Option<&World>) -> String {
 }
 
 /// A line of the tree.
+#[derive(Default)]
 struct Line {
     /// What it is, drawn under its parent.
     label: String,
     class: &'static str,
     lipschitz: String,
+    certified: &'static str,
+    sampled: String,
+    slack: String,
     bounds: String,
+}
+
+/// How many evaluations of a node all suprema together may take.
+const MAX_EVALUATIONS: u64 = 4_000_000;
+
+/// The steepest slope that sampling finds where the node's constant holds, with a share of [`MAX_EVALUATIONS`].
+fn supremum(node: &Node, share: usize) -> Option<f64> {
+    let samples = MAX_EVALUATIONS / (share.max(1) as u64 * node.size());
+    sampled_supremum(node, node.certified_region(), samples.clamp(16, 4096))
+}
+
+/// The constant divided by the steepest slope found, where both are known.
+fn slack(node: &Node, supremum: Option<f64>) -> Option<f64> {
+    let slack = node.lipschitz() / supremum?;
+    slack.is_finite().then_some(slack)
+}
+
+/// Where a node's constant holds, in a word.
+fn certified(node: &Node) -> &'static str {
+    if node.certified_region() == Bounds::EVERYWHERE {
+        "everywhere"
+    } else {
+        "bounds"
+    }
 }
 
 /// The trees as a table.
 fn tree_in_words(shown: &[Arc<Node>]) -> String {
     let mut lines = Vec::new();
     add_children(shown, "", true, &mut lines);
-    let width = |cell: &dyn Fn(&Line) -> usize| lines.iter().map(cell).max().unwrap_or(0);
-    let label = width(&|l| l.label.chars().count()).max("shown".len());
-    let lipschitz = width(&|l| l.lipschitz.len()).max("lipschitz".len());
-    let row = |a: &str, b: &str, c: &str, d: &str| {
-        let line = format!("{a:label$}  {b:9}  {c:lipschitz$}  {d}");
-        format!("{}\n", line.trim_end())
-    };
-    let mut text = row("shown", "class", "lipschitz", "bounds");
-    for line in &lines {
-        text.push_str(&row(&line.label, line.class, &line.lipschitz, &line.bounds));
+    let sampled: Vec<Option<f64>> = lines
+        .iter()
+        .map(|(_, node)| node.and_then(|node| supremum(node, lines.len())))
+        .collect();
+    let mut rows = vec![Line {
+        label: "shown".into(),
+        class: "class",
+        lipschitz: "lipschitz".into(),
+        certified: "holds on",
+        sampled: "sampled".into(),
+        slack: "slack".into(),
+        bounds: "bounds".into(),
+    }];
+    for ((label, node), sampled) in lines.into_iter().zip(sampled) {
+        rows.push(match node {
+            Some(node) => Line {
+                label,
+                class: node.class().word(),
+                lipschitz: short(node.lipschitz()),
+                certified: certified(node),
+                sampled: sampled.map_or("-".into(), short),
+                slack: slack(node, sampled).map_or("-".into(), |slack| format!("{slack:.2}")),
+                bounds: bounds_in_words(&node.bounds()),
+            },
+            None => Line {
+                label,
+                ..Line::default()
+            },
+        });
+    }
+    let width = |cell: &dyn Fn(&Line) -> usize| rows.iter().map(cell).max().unwrap_or(0);
+    let label = width(&|l| l.label.chars().count());
+    let lipschitz = width(&|l| l.lipschitz.len());
+    let sampled = width(&|l| l.sampled.len());
+    let mut text = String::new();
+    for l in &rows {
+        let line = format!(
+            "{:label$}  {:9}  {:lipschitz$}  {:10}  {:sampled$}  {:5}  {}",
+            l.label, l.class, l.lipschitz, l.certified, l.sampled, l.slack, l.bounds
+        );
+        text.push_str(line.trim_end());
+        text.push('\n');
     }
     text
 }
 
-/// Adds the lines of these nodes, each after `indent`; at the root there are no branches.
-fn add_children(nodes: &[Arc<Node>], indent: &str, is_root: bool, lines: &mut Vec<Line>) {
+/// Adds the lines of these nodes, each after `indent`, with the node where it is not a line that stands for many; at the
+/// root there are no branches.
+fn add_children<'a>(
+    nodes: &'a [Arc<Node>],
+    indent: &str,
+    is_root: bool,
+    lines: &mut Vec<(String, Option<&'a Node>)>,
+) {
     for (i, node) in nodes.iter().enumerate() {
         let rest = nodes.len() - i;
         let is_cut = lines.len() >= MAX_LINES || (i + 1 >= MAX_CHILDREN && rest > 1);
@@ -117,20 +184,10 @@ fn add_children(nodes: &[Arc<Node>], indent: &str, is_root: bool, lines: &mut Ve
         };
         if is_cut {
             let label = format!("{indent}{branch}... {rest} more");
-            lines.push(Line {
-                label,
-                class: "",
-                lipschitz: String::new(),
-                bounds: String::new(),
-            });
+            lines.push((label, None));
             return;
         }
-        lines.push(Line {
-            label: format!("{indent}{branch}{}", label(node)),
-            class: node.class().word(),
-            lipschitz: short(node.lipschitz()),
-            bounds: bounds_in_words(&node.bounds()),
-        });
+        lines.push((format!("{indent}{branch}{}", label(node)), Some(node)));
         add_children(node.children(), &format!("{indent}{below}"), false, lines);
     }
 }
@@ -221,10 +278,12 @@ fn features(scene: &Scene, world: &World) -> Vec<&'static str> {
 /// All of it for programs.
 fn to_json(scene: &Scene, world: Option<&World>) -> Value {
     let mut left = MAX_NODES;
+    let share = scene.shown.iter().map(|node| node.size()).sum::<u64>();
+    let share = share.min(MAX_NODES as u64) as usize;
     let shown: Vec<Value> = scene
         .shown
         .iter()
-        .map_while(|node| node_to_json(node, &mut left))
+        .map_while(|node| node_to_json(node, share, &mut left))
         .collect();
     let mut value = json!({ "schema": 1, "shown": shown, "is_cut": left == 0 });
     if let Some(world) = world {
@@ -240,13 +299,14 @@ fn to_json(scene: &Scene, world: Option<&World>) -> Value {
 }
 
 /// The node and its children; none once `left` nodes have been told of.
-fn node_to_json(node: &Node, left: &mut usize) -> Option<Value> {
+fn node_to_json(node: &Node, share: usize, left: &mut usize) -> Option<Value> {
     *left = left.checked_sub(1)?;
     let children: Vec<Value> = node
         .children()
         .iter()
-        .map_while(|child| node_to_json(child, left))
+        .map_while(|child| node_to_json(child, share, left))
         .collect();
+    let sampled = supremum(node, share);
     Some(json!({
         "kind": node.kind(),
         "name": node.name(),
@@ -254,6 +314,9 @@ fn node_to_json(node: &Node, left: &mut usize) -> Option<Value> {
         "line": node.place().map(|place| place.line),
         "class": node.class().word(),
         "lipschitz": finite(node.lipschitz()),
+        "region": bounds_to_json(&node.certified_region()),
+        "supremum": sampled,
+        "slack": slack(node, sampled),
         "bounds": bounds_to_json(&node.bounds()),
         "rule": node.rule(),
         "children": children,
@@ -295,12 +358,12 @@ mod tests {
     #[test]
     fn tree_is_drawn_with_branches() {
         let expected = "\
-shown              class      lipschitz  bounds
-union              exact      1          [-1, -1, -1] to [4, 1, 1]
-├─ translate       exact      1          [-1, -1, -1] to [1, 1, 1]
-│  └─ sphere       exact      1          [-1, -1, -1] to [1, 1, 1]
-└─ translate       exact      1          [2, -1, -1] to [4, 1, 1]
-   └─ sphere       exact      1          [-1, -1, -1] to [1, 1, 1]
+shown              class      lipschitz  holds on    sampled  slack  bounds
+union              exact      1          everywhere  1        1.00   [-1, -1, -1] to [4, 1, 1]
+├─ translate       exact      1          everywhere  1        1.00   [-1, -1, -1] to [1, 1, 1]
+│  └─ sphere       exact      1          everywhere  1        1.00   [-1, -1, -1] to [1, 1, 1]
+└─ translate       exact      1          everywhere  1        1.00   [2, -1, -1] to [4, 1, 1]
+   └─ sphere       exact      1          everywhere  1        1.00   [-1, -1, -1] to [1, 1, 1]
 ";
         let squeezed = |text: &str| {
             let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -5,7 +5,7 @@ use super::machine::Machine;
 use super::report::Diagnostic;
 use super::value::Value;
 use crate::catalogue::{Bounds, Modifier, with_modifier, written};
-use crate::scene::{FieldShape, Node, Refutation, Shape, refute};
+use crate::scene::{FieldShape, Node, Refutation, Shape, lipschitz_of_graph, refute};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -14,6 +14,9 @@ const MOST_REGIONS: usize = 16;
 
 /// The regions on which each claiming field is evaluated, by its address.
 type Regions = HashMap<*const FieldShape, Vec<Bounds>>;
+
+/// A claim is loose where it is this many times what is derived.
+const LOOSE: f64 = 2.0;
 
 /// How many steps the samples of one claim on one region count for.
 const STEPS_A_REGION: u64 = 4096;
@@ -38,13 +41,45 @@ impl Machine<'_> {
                 return;
             }
             let steepest = regions
-                .into_iter()
+                .iter()
+                .copied()
                 .filter_map(|region| refute(&field.graph, claimed, region))
                 .max_by(|a, b| a.slope.total_cmp(&b.slope));
             if let Some(found) = steepest {
                 self.report_refuted(id, claimed, found);
+                continue;
+            }
+            let derived = regions
+                .into_iter()
+                .map(|region| lipschitz_of_graph(&field.graph, region))
+                .fold(0.0, f64::max);
+            if at.is_some_and(|at| self.count_effort(at).is_err()) {
+                return;
+            }
+            if claimed > LOOSE * derived {
+                self.report_loose(id, claimed, derived);
             }
         }
+    }
+
+    fn report_loose(&mut self, id: GlobalId, claimed: f64, derived: f64) {
+        let routine = self.routine(id);
+        let Some(claim) = &routine.claim else {
+            return;
+        };
+        let name = &routine.name.text;
+        let derived = written(rounded_up(derived));
+        let message =
+            format!("the claimed Lipschitz constant of `{name}` is loose, which costs time");
+        let warning = Diagnostic::warning(claim.span, message)
+            .label(format!(
+                "claimed {}, but {derived} is derived",
+                written(claimed)
+            ))
+            .help(format!(
+                "claim {derived}, or leave `lipschitz` out to have it derived"
+            ));
+        self.diagnostics.push(warning);
     }
 
     fn report_refuted(&mut self, id: GlobalId, claimed: f64, found: Refutation) {
@@ -66,6 +101,12 @@ impl Machine<'_> {
             ));
         self.diagnostics.push(error);
     }
+}
+
+/// The number with three digits, not below it.
+fn rounded_up(x: f64) -> f64 {
+    let digits = format!("{:.2e}", x * 1.005);
+    digits.parse().unwrap_or(x)
 }
 
 /// Notes the regions on which fields below `node` are evaluated for points of `region`.

@@ -8,7 +8,7 @@ use super::program::Program;
 use super::report::Diagnostic;
 use super::source::{Span, Word};
 use super::value::{Range, Value};
-use crate::scene::{FieldShape, GraphBuilder, Node, Place, Settings, Tracer};
+use crate::scene::{FieldShape, GraphBuilder, Mark, Node, Place, Settings, Tracer};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -171,7 +171,7 @@ impl<'a> Machine<'a> {
     }
 
     /// Counts what it took to derive constants of fields since the last time.
-    fn count_effort(&mut self, at: Span) -> Eval<()> {
+    pub fn count_effort(&mut self, at: Span) -> Eval<()> {
         if self.derived.is_empty() {
             return Ok(());
         }
@@ -240,11 +240,19 @@ impl<'a> Machine<'a> {
                     self.open -= 1;
                     return self.too_many_open(expression.span);
                 }
+                // What a field computes is marked with the innermost expression that says so.
+                let around = self.marked(expression.span.mark());
                 let value = self.composed(kind, expression.span);
+                around.map(|mark| self.marked(mark));
                 self.open -= 1;
                 value
             }
         }
+    }
+
+    /// Marks the operations to come, where a field is being made; gives the mark before.
+    fn marked(&mut self, mark: Mark) -> Option<Mark> {
+        self.builders.last_mut().map(|builder| builder.mark(mark))
     }
 
     #[cold]

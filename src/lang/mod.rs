@@ -11,6 +11,7 @@ mod ast;
 mod build;
 mod builtin;
 mod calls;
+mod certificates;
 mod claims;
 mod color;
 mod complaint;

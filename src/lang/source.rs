@@ -1,5 +1,6 @@
 //! Source texts, and places in them.
 
+use crate::scene::Mark;
 use std::sync::Arc;
 
 /// A part of a source text.
@@ -14,6 +15,23 @@ pub struct Span {
 }
 
 impl Span {
+    /// The span as a mark on the operations of a graph: 16 bits for the text, 24 for the start and 24 for the length.
+    pub fn mark(self) -> Mark {
+        let (file, start, end) = (self.file.into(), self.start.into(), u64::from(self.end));
+        let field = |x: u64, bits: u32| x & ((1 << bits) - 1);
+        Mark(field(file, 16) << 48 | field(start, 24) << 24 | field(end - start, 24))
+    }
+
+    /// The span that a mark was made from.
+    pub fn marked(Mark(bits): Mark) -> Self {
+        let (file, start, length) = (bits >> 48, bits >> 24 & 0xff_ffff, bits & 0xff_ffff);
+        Self {
+            file: file as u32,
+            start: start as u32,
+            end: (start + length) as u32,
+        }
+    }
+
     /// From the start of `self` to the end of `other`, in the same text.
     pub fn to(self, other: Self) -> Self {
         Self {

@@ -169,24 +169,7 @@ impl<'a> Machine<'a> {
                 return self.fail(error.help(help));
             }
             if !node.lipschitz().is_finite() {
-                let message = "this shape has no finite Lipschitz constant, so it cannot be traced";
-                let (label, help) = if node.bounds().is_finite() {
-                    (
-                        "its slope has no bound that could be derived, not even inside of its bounds",
-                        "a jump (`floor`, `if`), a pole (`1 / x`) or a root at 0 may be the cause: remove it, or claim a \
-                         constant, as in `field f(p) lipschitz 2 { ... }`",
-                    )
-                } else {
-                    (
-                        "its slope has no bound on all of space",
-                        "bound it: `shape & box(10)`, or another solid that holds what you want to see",
-                    )
-                };
-                return self.fail(
-                    Diagnostic::error(value.span, message)
-                        .label(label)
-                        .help(help),
-                );
+                return self.fail(super::certificates::without_constant(node, value.span));
             }
             if node.place().is_none() {
                 *node = node.labelled(None, Some(place.clone()));

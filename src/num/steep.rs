@@ -46,6 +46,16 @@ impl Steep {
         }
     }
 
+    /// The range of the value.
+    pub fn value(&self) -> Interval {
+        self.range.value
+    }
+
+    /// The ranges of the partial derivatives.
+    pub fn gradient(&self) -> [Interval; 3] {
+        self.range.partial
+    }
+
     /// The range with the smaller of the given slope and what the components say.
     fn new(range: Dual<Interval, 3>, slope: f64) -> Self {
         let by_components = length(range.partial.map(Interval::magnitude));

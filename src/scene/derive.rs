@@ -1,6 +1,6 @@
 //! Lipschitz constants of users' fields, by interval automatic differentiation over a region, refined by subdivision.
 
-use super::Graph;
+use super::{Graph, Mark, Obstacle};
 use crate::catalogue::Bounds;
 use crate::num::{Dual, Interval, Steep, Vec3};
 use std::collections::BinaryHeap;
@@ -52,7 +52,7 @@ fn slope_at(graph: &Graph, p: [f64; 3]) -> f64 {
 
 /// A Lipschitz constant of the graph's first output on `region`: the largest gradient, at most 3 % above it where
 /// [`MAX_BOXES`] allow; infinite where none is known.
-pub(super) fn lipschitz_of_graph(graph: &Graph, region: Bounds) -> f64 {
+pub fn lipschitz_of_graph(graph: &Graph, region: Bounds) -> f64 {
     if region.is_empty() {
         return 0.0;
     }
@@ -80,7 +80,7 @@ fn derived(graph: &Graph, region: Bounds) -> (f64, usize) {
             break;
         }
         let cell = cells.pop().expect("peeked just now");
-        let halves = cell.halves();
+        let halves = halves(&cell.region, 0.5);
         if halves.iter().any(|half| half.size() == cell.region.size()) {
             cells.push(cell);
             break;
@@ -98,6 +98,63 @@ fn derived(graph: &Graph, region: Bounds) -> (f64, usize) {
     }
     let bound = cells.peek().map_or(f64::INFINITY, |cell| cell.bound);
     (bound, cells.len())
+}
+
+/// What keeps a graph from having a finite constant, and a place where it does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trouble {
+    /// What it is.
+    pub obstacle: Obstacle,
+    /// Where in the script it was written.
+    pub mark: Mark,
+    /// A point next to it.
+    pub point: [f64; 3],
+}
+
+/// Looks for what keeps `graph` from having a finite constant on `region`: the smallest box that can be found in which
+/// some slope still has no bound. Infinite sides are searched up to 10 units from the origin; none where subdivision
+/// shows that every slope has a bound.
+pub fn trouble(graph: &Graph, region: Bounds) -> Option<Trouble> {
+    const SMALLEST: f64 = 1e-9;
+    const MOST: u64 = 4096;
+    let region = searched(region);
+    if region.is_empty() {
+        return None;
+    }
+    let most = (MAX_WORK / graph.work().max(1)).clamp(1, MOST);
+    let mut left = vec![region];
+    for _ in 0..most {
+        let cell = left.pop()?;
+        let Some((obstacle, mark)) = graph.obstacle(cell) else {
+            continue;
+        };
+        if cell.radius_about_centre() <= SMALLEST * (1.0 + region.radius()) {
+            let point = cell.centre();
+            return Some(Trouble {
+                obstacle,
+                mark,
+                point,
+            });
+        }
+        // The half that holds the cell's middle comes first; uneven halves meet no jump at a round number twice.
+        left.extend(halves(&cell, 0.4999));
+    }
+    let cell = left.pop()?;
+    let (obstacle, mark) = graph.obstacle(cell)?;
+    let point = cell.centre();
+    Some(Trouble {
+        obstacle,
+        mark,
+        point,
+    })
+}
+
+/// The part of a region that is sampled: infinite sides up to 10 units from the origin.
+pub(super) fn searched(region: Bounds) -> Bounds {
+    if region.is_finite() {
+        return region;
+    }
+    region.intersect(Bounds::centred([10.0; 3]))
 }
 
 /// The part of a region that shows every slope of a graph with these periods: one period along each axis, and a little
@@ -122,11 +179,7 @@ pub fn refute(graph: &Graph, claimed: f64, region: Bounds) -> Option<Refutation>
     const MOST: u64 = 4096;
     // Large graphs get fewer samples, so that this takes no longer than the derivation of a constant.
     let samples = (MAX_WORK / graph.work().max(1)).clamp(1, MOST);
-    let region = if region.is_finite() {
-        region
-    } else {
-        region.intersect(Bounds::centred([10.0; 3]))
-    };
+    let region = searched(region);
     if region.is_empty() || gradient_bound(graph, region) <= claimed {
         return None;
     }
@@ -145,7 +198,7 @@ pub fn refute(graph: &Graph, claimed: f64, region: Bounds) -> Option<Refutation>
 }
 
 /// Point number `i` of a sequence that fills the box evenly. Source: Roberts 2018, R3 sequence.
-fn sample(region: &Bounds, i: u64) -> [f64; 3] {
+pub(super) fn sample(region: &Bounds, i: u64) -> [f64; 3] {
     const STEP: [f64; 3] = [
         0.819_172_513_396_164_5,
         0.671_043_606_703_789_2,
@@ -164,19 +217,17 @@ struct Cell {
     region: Bounds,
 }
 
-impl Cell {
-    /// The cell cut across its longest side.
-    fn halves(&self) -> [Bounds; 2] {
-        let size = self.region.size();
-        let axis = (0..3)
-            .max_by(|a, b| size[*a].total_cmp(&size[*b]))
-            .unwrap_or(0);
-        let middle = self.region.centre()[axis];
-        let (mut below, mut above) = (self.region, self.region);
-        below.high[axis] = middle;
-        above.low[axis] = middle;
-        [below, above]
-    }
+/// A box cut across its longest side, at this share of it.
+fn halves(region: &Bounds, share: f64) -> [Bounds; 2] {
+    let size = region.size();
+    let axis = (0..3)
+        .max_by(|a, b| size[*a].total_cmp(&size[*b]))
+        .unwrap_or(0);
+    let cut = region.low[axis] + share * size[axis];
+    let (mut below, mut above) = (*region, *region);
+    below.high[axis] = cut;
+    above.low[axis] = cut;
+    [below, above]
 }
 
 impl PartialEq for Cell {

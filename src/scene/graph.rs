@@ -6,7 +6,7 @@
 use super::Node;
 use super::period::period;
 use crate::catalogue::{Bounds, Function};
-use crate::num::{Number, Vec3};
+use crate::num::{Interval, Number, Steep, Vec3};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -20,6 +20,10 @@ impl Id {
         self.0 as usize
     }
 }
+
+/// Where in a script an operation was written, in the language's own terms.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Mark(pub u64);
 
 /// One operation; operands come before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -82,6 +86,9 @@ impl Op {
 #[derive(Debug, Default)]
 pub struct GraphBuilder {
     ops: Vec<Op>,
+    /// Where each operation was first written.
+    marks: Vec<Mark>,
+    mark: Mark,
     known: HashMap<Op, Id>,
     shapes: Vec<Arc<Node>>,
 }
@@ -100,6 +107,11 @@ impl GraphBuilder {
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.ops.is_empty()
+    }
+
+    /// Says where in the script the operations to come are written, and gives what was said before.
+    pub fn mark(&mut self, mark: Mark) -> Mark {
+        std::mem::replace(&mut self.mark, mark)
     }
 
     /// A constant.
@@ -165,8 +177,37 @@ impl GraphBuilder {
     /// # Panics
     /// If there are none, or more than three.
     pub fn call(&mut self, function: Function, arguments: &[Id]) -> Id {
+        if function == Function::Sqrt
+            && let Some(length) = self.root_of_squares(arguments[0])
+        {
+            return length;
+        }
         let ids = std::array::from_fn(|i| arguments.get(i).copied().unwrap_or(arguments[0]));
         self.push(Op::Call(function, ids))
+    }
+
+    /// The root of a square or of a sum of two or three squares, as the length that it is: the same bits, with a slope
+    /// that is known at 0 too.
+    fn root_of_squares(&mut self, radicand: Id) -> Option<Id> {
+        let side = |id: Id| match self.ops[id.index()] {
+            Op::Square(side) => Some(side),
+            _ => None,
+        };
+        if let Some(a) = side(radicand) {
+            return Some(self.call(Function::Abs, &[a]));
+        }
+        let Op::Add(left, c) = self.ops[radicand.index()] else {
+            return None;
+        };
+        let c = side(c)?;
+        if let Some(a) = side(left) {
+            return Some(self.call(Function::Hypot, &[a, c]));
+        }
+        let Op::Add(a, b) = self.ops[left.index()] else {
+            return None;
+        };
+        let (a, b) = (side(a)?, side(b)?);
+        Some(self.call(Function::Norm3, &[a, b, c]))
     }
 
     /// `x` where `a < b`, else `y`.
@@ -202,16 +243,18 @@ impl GraphBuilder {
             }
         }
         let mut place = vec![Id(0); self.ops.len()];
-        let mut ops = Vec::new();
+        let (mut ops, mut marks) = (Vec::new(), Vec::new());
         for (i, op) in self.ops.iter().enumerate().filter(|(i, _)| is_needed[*i]) {
             place[i] = Id(ops.len() as u32);
             ops.push(op.with_operands(|id| place[id.0 as usize]));
+            marks.push(self.marks[i]);
         }
         let outputs: Vec<Id> = outputs.iter().map(|id| place[id.0 as usize]).collect();
         let periods = [0, 1, 2].map(|axis| period(&ops, &outputs, axis));
         let (steps, registers, outputs) = allocate(&ops, &outputs);
         Graph {
             steps,
+            marks,
             registers,
             outputs,
             shapes: self.shapes.clone(),
@@ -228,6 +271,7 @@ impl GraphBuilder {
         }
         let id = Id(self.ops.len() as u32);
         self.ops.push(op);
+        self.marks.push(self.mark);
         self.known.insert(op, id);
         id
     }
@@ -326,6 +370,19 @@ fn step<N: Number>(
     }
 }
 
+/// What keeps a graph from having a finite Lipschitz constant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Obstacle {
+    /// A choice whose two values differ by this much where it changes.
+    Choice(f64),
+    /// A function that jumps or is infinitely steep there.
+    Function(Function),
+    /// A divisor that is zero there.
+    Quotient,
+    /// The field of a shape.
+    Shape,
+}
+
 /// Lipschitz constants of a graph that were derived already.
 #[derive(Debug, Default)]
 struct Derived {
@@ -339,6 +396,7 @@ struct Derived {
 #[derive(Clone, Debug)]
 pub struct Graph {
     steps: Vec<Step>,
+    marks: Vec<Mark>,
     registers: usize,
     outputs: Vec<u32>,
     shapes: Vec<Arc<Node>>,
@@ -434,6 +492,40 @@ impl Graph {
         let mut registers = vec![N::splat(0.0); self.registers];
         self.run(p, &mut registers, &|i, q| self.shapes[i].evaluate(q));
         self.output(&registers, 0)
+    }
+
+    /// The first operation whose slope has no bound over `region` though those of its operands have, with where it was
+    /// written and by how much the value jumps there; none where all slopes have a bound.
+    pub(super) fn obstacle(&self, region: Bounds) -> Option<(Obstacle, Mark)> {
+        let [x, y, z] = std::array::from_fn(|i| {
+            Steep::variable(Interval::new(region.low[i], region.high[i]), i)
+        });
+        let p = Vec3::new(x, y, z);
+        let mut registers = vec![Steep::splat(0.0); self.registers];
+        for (s, mark) in self.steps.iter().zip(&self.marks) {
+            let (ids, n) = s.op.operands();
+            let operands = ids.map(|id| registers.get(id.index()).copied());
+            let is_sound = operands[..n]
+                .iter()
+                .flatten()
+                .all(|steep| steep.slope().is_finite());
+            let value = step(&s.op, &p, &registers, &|i, q| self.shapes[i].evaluate(q));
+            registers[s.into as usize] = value;
+            if value.slope().is_finite() || !is_sound {
+                continue;
+            }
+            let obstacle = match s.op {
+                Op::Select(_) => {
+                    let [_, _, x, y] = operands.map(|steep| steep.map_or(0.0, |s| s.value().mid()));
+                    Obstacle::Choice((x - y).abs())
+                }
+                Op::Call(function, _) => Obstacle::Function(function),
+                Op::Divide(..) => Obstacle::Quotient,
+                _ => Obstacle::Shape,
+            };
+            return Some((obstacle, *mark));
+        }
+        None
     }
 
     /// All outputs at a point.

@@ -10,20 +10,24 @@ mod material;
 mod node;
 mod period;
 mod settings;
+mod supremum;
 mod symbol;
 mod tracer;
 
 use std::sync::Arc;
 
 pub use camera::{Camera, Projection};
-pub use derive::{Refutation, gradient_bound, range_of_graph, refute};
+pub use derive::{
+    Refutation, Trouble, gradient_bound, lipschitz_of_graph, range_of_graph, refute, trouble,
+};
 pub use environment::{Fog, Sky};
 pub use fault::Fault;
-pub use graph::{Graph, GraphBuilder, Id};
+pub use graph::{Graph, GraphBuilder, Id, Mark, Obstacle};
 pub use light::{Falloff, Light, Source};
 pub use material::{Material, Model, Shadow, Term};
 pub use node::{Displacement, FieldShape, Node, Place, Shape};
 pub use settings::{Method, Settings};
+pub use supremum::sampled_supremum;
 pub use tracer::{TraceRecord, Tracer};
 
 /// Everything that a picture shows.

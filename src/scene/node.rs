@@ -362,6 +362,15 @@ impl Node {
         self.everywhere
     }
 
+    /// The region that [`Node::lipschitz`] holds on: all of space, or the bounds.
+    pub fn certified_region(&self) -> Bounds {
+        if self.everywhere <= self.lipschitz {
+            Bounds::EVERYWHERE
+        } else {
+            self.bounds
+        }
+    }
+
     /// The material of what is not painted deeper down.
     pub fn paint(&self) -> Option<&Arc<Material>> {
         self.paint.as_ref()
@@ -474,6 +483,34 @@ impl Node {
             }
             Shape::Displacement(d) => d.operands.iter().map(|o| o.lipschitz_over(region)).sum(),
         }
+    }
+
+    /// The innermost node that has no finite Lipschitz constant on the region where this one's bounds make it evaluated,
+    /// with that region; none where the node has a constant.
+    pub fn without_constant(&self) -> Option<(&Self, Bounds)> {
+        self.without_constant_on(self.bounds)
+    }
+
+    fn without_constant_on(&self, region: Bounds) -> Option<(&Self, Bounds)> {
+        if self.lipschitz_over(region).is_finite() {
+            return None;
+        }
+        let deeper = match &self.shape {
+            Shape::Primitive(_) | Shape::Field(_) => None,
+            Shape::Combination(_, children) => children
+                .iter()
+                .find_map(|child| child.without_constant_on(region)),
+            Shape::Modifier(modifier, child) => {
+                let inner = with_modifier!(modifier, m => m.domain(region));
+                child.without_constant_on(inner)
+            }
+        };
+        deeper.or(Some((self, region)))
+    }
+
+    /// A Lipschitz constant of the field in the ball about `centre`; infinite where none is known.
+    pub fn lipschitz_within(&self, centre: [f64; 3], radius: f64) -> f64 {
+        self.lipschitz_over(Bounds::new(centre, centre).inflate(radius))
     }
 
     /// The field at `p`, by walking the tree: slow, and the measure of what is compiled.

@@ -29,7 +29,16 @@ pub fn without_constant(node: &Node, at: Span) -> Diagnostic {
 
 /// The error with what was found in the field called `name`.
 fn because_of(error: Diagnostic, name: &str, found: &Trouble) -> Diagnostic {
-    let near = format!("near {}", Value::Vector3(found.point.map(shortened)));
+    let size = found.point.iter().fold(0.0, |n: f64, c| n.max(c.abs()));
+    // The search ends next to the place, not on it: at a coordinate of 0 it is off by what does not count.
+    let rounded = |c: f64| {
+        if c.abs() < 1e-6 * size {
+            0.0
+        } else {
+            shortened(c)
+        }
+    };
+    let near = format!("near {}", Value::Vector3(found.point.map(rounded)));
     let (what, help) = match found.obstacle {
         Obstacle::Choice(gap) if gap > 1e-6 => (
             format!("this jumps by {} {near}", written(shortened(gap))),

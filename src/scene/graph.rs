@@ -4,6 +4,7 @@
 //! are shared, constants are folded, and an `if` on the point becomes a select. Evaluation is a walk over a list.
 
 use super::Node;
+use super::extent::extent;
 use super::period::period;
 use crate::catalogue::{Bounds, Function};
 use crate::num::{Interval, Number, Steep, Vec3};
@@ -388,6 +389,8 @@ pub enum Obstacle {
 struct Derived {
     /// The constants by region.
     known: Vec<(Bounds, f64)>,
+    /// The boxes that hold the sublevel sets, by level.
+    extents: Vec<(f64, Bounds)>,
     /// How many operations they took.
     effort: u64,
 }
@@ -434,6 +437,18 @@ impl Graph {
         derived.known.push((region, lipschitz));
         derived.effort += boxes as u64 * self.work();
         lipschitz
+    }
+
+    /// A box that holds every point where the first output is at most `level`: found once, as constants are.
+    pub(super) fn extent(&self, level: f64) -> Bounds {
+        let mut derived = self.derived.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, bounds)) = derived.extents.iter().find(|(known, _)| *known == level) {
+            return *bounds;
+        }
+        let (bounds, looks) = extent(self, level);
+        derived.extents.push((level, bounds));
+        derived.effort += looks as u64 * self.work();
+        bounds
     }
 
     /// How many operations were spent on deriving constants of this graph and its clones so far.

@@ -3,6 +3,7 @@
 mod camera;
 mod derive;
 mod environment;
+mod extent;
 mod fault;
 mod graph;
 mod light;

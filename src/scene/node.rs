@@ -450,7 +450,7 @@ impl Node {
     pub fn sublevel(&self, level: f64) -> Bounds {
         match &self.shape {
             Shape::Primitive(primitive) => with_primitive!(primitive, p => p.sublevel(level)),
-            Shape::Field(_) => Bounds::EVERYWHERE,
+            Shape::Field(field) => field.graph.extent(level),
             Shape::Combination(combination, children) => {
                 combination.sublevel(children.len(), level, &|i, l| children[i].sublevel(l))
             }

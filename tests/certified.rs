@@ -2,7 +2,7 @@
 //! reference that shares nothing with the tracer but the field, ranges of it along the ray in f64.
 
 use fieldstone::lang::load_text;
-use fieldstone::num::{Interval, Slope, Vec3};
+use fieldstone::num::{Interval, Steep, Vec3};
 use fieldstone::render::View;
 use fieldstone::scene::{Node, Scene, sampled_supremum};
 use fieldstone::trace::{Ray, SceneTracer, Verdict, Visibility, World};
@@ -15,7 +15,7 @@ const CLOSE: f64 = 1e-11;
 
 fn scene(body: &str) -> Scene {
     let script = format!("{body}\nrender {{ size: [{}, {}] }}\n", SIZE[0], SIZE[1]);
-    load_text("test.sdf", &script, &[], &SceneTracer)
+    load_text("test.sdf", &script, &[], &SceneTracer::default())
         .unwrap_or_else(|error| panic!("{error:?}"))
         .scene
 }
@@ -36,13 +36,13 @@ fn along(node: &Node, ray: &Ray, t0: f64, t1: f64) -> (Interval, Interval) {
     let t = Interval::new(t0, t1);
     let [x, y, z] = std::array::from_fn(|i| {
         let place = Interval::point(o[i]) + Interval::point(d[i]) * t;
-        Slope::coordinate(place, i)
+        Steep::variable(place, i)
     });
-    let field: Slope = node.evaluate(&Vec3::new(x, y, z));
+    let field: Steep = node.evaluate(&Vec3::new(x, y, z));
     let slope = (0..3).fold(Interval::point(0.0), |sum, i| {
-        sum + field.partial[i] * Interval::point(d[i])
+        sum + field.gradient()[i] * Interval::point(d[i])
     });
-    (field.value, slope)
+    (field.value(), slope)
 }
 
 /// Interval bisection from near to far: a piece without a zero is passed over; one on which the field falls

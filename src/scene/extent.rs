@@ -2,7 +2,7 @@
 
 use super::Graph;
 use crate::catalogue::Bounds;
-use crate::num::{Interval, Slope, Vec3};
+use crate::num::{Interval, Steep, Vec3};
 
 /// How many operations of the graph the search for one box may take.
 const MAX_WORK: u64 = 1 << 22;
@@ -55,10 +55,10 @@ impl Search<'_> {
     fn is_clear(&mut self, region: &Bounds) -> bool {
         self.looks += 1;
         let [x, y, z] = std::array::from_fn(|i| {
-            Slope::coordinate(Interval::new(region.low[i], region.high[i]), i)
+            Steep::variable(Interval::new(region.low[i], region.high[i]), i)
         });
-        let field: Slope = self.graph.value(&Vec3::new(x, y, z));
-        field.value.lo > self.level
+        let field: Steep = self.graph.value(&Vec3::new(x, y, z));
+        field.value().lo > self.level
     }
 
     /// Cuts off the half-spaces across `axis` that are clear, where a side is still infinite.

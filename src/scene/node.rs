@@ -504,6 +504,10 @@ impl Node {
                 let inner = with_modifier!(modifier, m => m.domain(region));
                 child.without_constant_on(inner)
             }
+            Shape::Displacement(d) => d
+                .operands
+                .iter()
+                .find_map(|o| o.without_constant_on(region)),
         };
         deeper.or(Some((self, region)))
     }

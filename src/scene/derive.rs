@@ -1,6 +1,6 @@
 //! Lipschitz constants of users' fields, by interval automatic differentiation over a region, refined by subdivision.
 
-use super::{Graph, Mark, Obstacle};
+use super::{Graph, Mark, Obstacle, Parts};
 use crate::catalogue::Bounds;
 use crate::num::{Dual, Interval, Steep, Vec3};
 use std::collections::BinaryHeap;
@@ -61,13 +61,25 @@ pub fn lipschitz_of_graph(graph: &Graph, region: Bounds) -> f64 {
         return gradient_bound(graph, region);
     }
     let slack = SLACK * region.radius();
-    graph.remembered(region, slack, |region| derived(graph, region))
+    graph.remembered(region, slack, |region| {
+        derived(graph, region, of_terms(graph, region))
+    })
 }
 
-/// The constant on a finite region, and how many boxes were looked at.
-fn derived(graph: &Graph, region: Bounds) -> (f64, usize) {
+/// The sum of the constants of a graph's terms, which may be known better than that of the whole: a periodic term is
+/// looked at over one period. Infinite where the graph is no sum.
+fn of_terms(graph: &Graph, region: Bounds) -> f64 {
+    let Parts::Sum(terms) = graph.parts() else {
+        return f64::INFINITY;
+    };
+    let constants = terms.iter().map(|term| lipschitz_of_graph(term, region));
+    constants.fold(0.0, |sum, constant| (sum + constant).next_up())
+}
+
+/// The constant on a finite region where `most_steep` is one already, and how many boxes were looked at.
+fn derived(graph: &Graph, region: Bounds, most_steep: f64) -> (f64, usize) {
     let first = Cell {
-        bound: gradient_bound(graph, region),
+        bound: gradient_bound(graph, region).min(most_steep),
         region,
     };
     let most = (MAX_WORK / graph.work().max(1)).clamp(1, MAX_BOXES as u64) as usize;

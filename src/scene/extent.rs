@@ -104,7 +104,7 @@ impl Search<'_> {
 
     /// Cuts off the clear half or quarter of a finite box, on either side of `axis`.
     fn shave(&mut self, bounds: &mut Bounds, axis: usize, most: u64) {
-        for share in [0.5, 0.125] {
+        for share in [0.5, 0.125, 0.03125] {
             let step = share * (bounds.high[axis] - bounds.low[axis]);
             let mut upper = *bounds;
             upper.low[axis] = bounds.high[axis] - step;

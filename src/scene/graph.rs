@@ -231,6 +231,58 @@ impl GraphBuilder {
 
     /// The graph of `outputs`, without what they do not need.
     pub fn finish(&self, outputs: &[Id]) -> Graph {
+        let parts = match outputs {
+            [output] if self.ops.len() <= MAX_SPLIT => self.parts(*output),
+            _ => Parts::Whole,
+        };
+        Graph {
+            parts,
+            ..self.whole(outputs)
+        }
+    }
+
+    /// What the outermost operation joins.
+    fn parts(&self, output: Id) -> Parts {
+        let graphs = |ids: Vec<Id>| ids.iter().map(|id| self.whole(&[*id])).collect();
+        match self.ops[output.index()] {
+            Op::Call(Function::Min, _) => {
+                let mut operands = Vec::new();
+                self.least(output, &mut operands);
+                Parts::Least(graphs(operands))
+            }
+            Op::Add(..) | Op::Subtract(..) => {
+                let mut terms = Vec::new();
+                self.terms(output, &mut terms);
+                Parts::Sum(graphs(terms))
+            }
+            _ => Parts::Whole,
+        }
+    }
+
+    /// The operands of a minimum of minima.
+    fn least(&self, id: Id, operands: &mut Vec<Id>) {
+        match self.ops[id.index()] {
+            Op::Call(Function::Min, [a, b, _]) if operands.len() < MAX_PARTS => {
+                self.least(a, operands);
+                self.least(b, operands);
+            }
+            _ => operands.push(id),
+        }
+    }
+
+    /// The terms of a sum of sums, whatever their signs.
+    fn terms(&self, id: Id, terms: &mut Vec<Id>) {
+        match self.ops[id.index()] {
+            Op::Add(a, b) | Op::Subtract(a, b) if terms.len() < MAX_PARTS => {
+                self.terms(a, terms);
+                self.terms(b, terms);
+            }
+            _ => terms.push(id),
+        }
+    }
+
+    /// The graph of `outputs` without its parts.
+    fn whole(&self, outputs: &[Id]) -> Graph {
         let mut is_needed = vec![false; self.ops.len()];
         for id in outputs {
             is_needed[id.0 as usize] = true;
@@ -245,9 +297,19 @@ impl GraphBuilder {
         }
         let mut place = vec![Id(0); self.ops.len()];
         let (mut ops, mut marks) = (Vec::new(), Vec::new());
+        let mut shapes: Vec<Arc<Node>> = Vec::new();
+        let mut shape_place = vec![None; self.shapes.len()];
         for (i, op) in self.ops.iter().enumerate().filter(|(i, _)| is_needed[*i]) {
             place[i] = Id(ops.len() as u32);
-            ops.push(op.with_operands(|id| place[id.0 as usize]));
+            let mut op = op.with_operands(|id| place[id.0 as usize]);
+            if let Op::Shape(shape, _) = &mut op {
+                let index = *shape as usize;
+                *shape = *shape_place[index].get_or_insert_with(|| {
+                    shapes.push(self.shapes[index].clone());
+                    shapes.len() as u32 - 1
+                });
+            }
+            ops.push(op);
             marks.push(self.marks[i]);
         }
         let outputs: Vec<Id> = outputs.iter().map(|id| place[id.0 as usize]).collect();
@@ -258,8 +320,9 @@ impl GraphBuilder {
             marks,
             registers,
             outputs,
-            shapes: self.shapes.clone(),
+            shapes,
             periods,
+            parts: Parts::Whole,
             derived: Arc::default(),
         }
     }
@@ -404,13 +467,36 @@ pub struct Graph {
     outputs: Vec<u32>,
     shapes: Vec<Arc<Node>>,
     periods: [Option<f64>; 3],
+    parts: Parts,
     derived: Arc<Mutex<Derived>>,
 }
+
+/// What the outermost operation of a graph joins, each part as a graph of its own.
+#[derive(Clone, Debug)]
+pub enum Parts {
+    /// Nothing that is known better in parts.
+    Whole,
+    /// The graph is the smallest of these.
+    Least(Vec<Graph>),
+    /// The graph is the sum of these, each with one sign or the other.
+    Sum(Vec<Graph>),
+}
+
+/// How many parts a graph is split into.
+const MAX_PARTS: usize = 64;
+
+/// Graphs with more operations than this are not split.
+const MAX_SPLIT: usize = 2048;
 
 impl Graph {
     /// How many registers [`Graph::run`] needs.
     pub fn registers(&self) -> usize {
         self.registers
+    }
+
+    /// What the outermost operation joins.
+    pub fn parts(&self) -> &Parts {
+        &self.parts
     }
 
     /// The shapes whose fields the graph uses, by number.
@@ -454,7 +540,11 @@ impl Graph {
     /// How many operations were spent on deriving constants of this graph and its clones so far.
     pub fn effort(&self) -> u64 {
         let derived = self.derived.lock().unwrap_or_else(PoisonError::into_inner);
-        derived.effort
+        let of_parts = match &self.parts {
+            Parts::Sum(parts) => parts.iter().map(Self::effort).sum(),
+            _ => 0,
+        };
+        derived.effort + of_parts
     }
 
     /// After what length along each axis the derivatives repeat themselves, where they do; 0 where they do not change.

@@ -23,7 +23,7 @@ pub use derive::{
 };
 pub use environment::{Fog, Sky};
 pub use fault::Fault;
-pub use graph::{Graph, GraphBuilder, Id, Mark, Obstacle};
+pub use graph::{Graph, GraphBuilder, Id, Mark, Obstacle, Parts};
 pub use light::{Falloff, Light, Source};
 pub use material::{Material, Model, Shadow, Term};
 pub use node::{Displacement, FieldShape, Node, Place, Shape};

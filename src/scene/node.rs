@@ -1,7 +1,6 @@
 //! The tree of shapes. A node cannot be made without its certificates.
 
 use super::derive::{lipschitz_of_graph, range_of_graph};
-#[allow(unused_imports)]
 use super::symbol::{asked, record};
 use super::{Fault, Graph, Material};
 use crate::catalogue::{
@@ -543,8 +542,6 @@ impl Node {
     }
 }
 
-// Until there is a recorded blend and a recorded modifier.
-#[allow(unused_variables)]
 /// What a recorded entry computes; none for what is compiled, and for users' fields, which have a graph already.
 fn recorded(shape: &Shape) -> Option<Graph> {
     match shape {

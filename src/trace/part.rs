@@ -5,7 +5,7 @@ use crate::catalogue::Modifier;
 use crate::catalogue::{AnyPrimitive, Bounds, Combination, Operation, with_modifier};
 use crate::field::{Closure, Level, compile, compile_convex, compile_wide};
 use crate::num::{Dual, F64x32};
-use crate::scene::{Fault, Material, Node, Shadow, Shape};
+use crate::scene::{Fault, FieldShape, Graph, Material, Node, Parts, Shadow, Shape};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -178,6 +178,13 @@ pub fn flatten(node: &Arc<Node>) -> Vec<Arc<Node>> {
             },
             children,
         ) if blend.is_hard() => children.iter().flat_map(flatten).map(inherit).collect(),
+        Shape::Field(field) if field.claimed.is_none() => match field.graph.parts() {
+            Parts::Least(parts) => match of_field(field, parts) {
+                Some(parts) => parts.into_iter().map(inherit).collect(),
+                None => vec![node.clone()],
+            },
+            _ => vec![node.clone()],
+        },
         Shape::Modifier(modifier, child)
             if with_modifier!(modifier, m => m.similarity()).is_some() =>
         {
@@ -193,6 +200,20 @@ pub fn flatten(node: &Arc<Node>) -> Vec<Arc<Node>> {
         }
         _ => vec![node.clone()],
     }
+}
+
+/// The operands of a user's field that is a minimum: a hard union, each with a constant and bounds of its own. None where
+/// one of them has no constant.
+fn of_field(field: &FieldShape, parts: &[Graph]) -> Option<Vec<Arc<Node>>> {
+    let part = |graph: &Graph| {
+        let node = Node::field(FieldShape {
+            name: field.name.clone(),
+            graph: Arc::new(graph.clone()),
+            claimed: None,
+        });
+        node.ok().filter(|node| node.lipschitz().is_finite())
+    };
+    parts.iter().map(part).collect()
 }
 
 /// The closed form of a shape that is a sphere, plane or triangle under transforms that keep angles.

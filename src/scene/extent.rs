@@ -5,7 +5,7 @@ use crate::catalogue::Bounds;
 use crate::num::{Interval, Steep, Vec3};
 
 /// How many operations of the graph the search for one box may take.
-const MAX_WORK: u64 = 1 << 22;
+const MAX_WORK: u64 = 1 << 19;
 
 /// Sides are looked for from 2^-20 to 2^20 scene units from the origin.
 const OCTAVES: std::ops::RangeInclusive<i32> = -20..=20;

@@ -103,10 +103,14 @@ impl Machine<'_> {
     }
 }
 
-/// The number with three digits, not below it.
+/// The number with three digits, not below it but for rounding.
 fn rounded_up(x: f64) -> f64 {
-    let digits = format!("{:.2e}", x * 1.005);
-    digits.parse().unwrap_or(x)
+    let digits = |x: f64| format!("{x:.2e}").parse().unwrap_or(x);
+    let nearest = digits(x);
+    if nearest >= x * (1.0 - 1e-9) {
+        return nearest;
+    }
+    digits(x * 1.005)
 }
 
 /// Notes the regions on which fields below `node` are evaluated for points of `region`.

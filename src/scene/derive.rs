@@ -51,7 +51,7 @@ fn slope_at(graph: &Graph, p: [f64; 3]) -> f64 {
 }
 
 /// A Lipschitz constant of the graph's first output on `region`: the largest gradient, at most 3 % above it where
-/// [`MAX_BOXES`] allow; infinite where none is known.
+/// a budget of 32 768 boxes allows; infinite where none is known.
 pub fn lipschitz_of_graph(graph: &Graph, region: Bounds) -> f64 {
     if region.is_empty() {
         return 0.0;

@@ -45,9 +45,10 @@ pub use profiles::{
 };
 pub use solids::{
     Blob, BoxFrame, CappedCone, CappedTorus, Capsule, Cone, Cuboid, CutSphere, Cylinder,
-    Dodecahedron, Ellipsoid, Gyroid, Helix, Icosahedron, Julia, Lens, Link, Menger, Octahedron,
-    Plane, Prism, Pyramid, Quad, Rhombus, Rod, RoundCone, SchwarzD, SchwarzP, Sierpinski, Slab,
-    SolidAngle, Sphere, Superellipsoid, Tetrahedron, Torus, Triangle, Tube, Vesica,
+    Dodecahedron, Ellipsoid, Gyroid, Helix, Icosahedron, Julia, Lens, Link, Mandelbulb, Menger,
+    Octahedron, Plane, Prism, Pyramid, Quad, Rhombus, Rod, RoundCone, SchwarzD, SchwarzP,
+    Sierpinski, Slab, SolidAngle, Sphere, Superellipsoid, Tetrahedron, Torus, Triangle, Tube,
+    Vesica,
 };
 
 declaration::list!($
@@ -59,7 +60,7 @@ declaration::list!($
     Tetrahedron, Octahedron, Dodecahedron, Icosahedron, Quad, Tube, Helix,
     Ring, Segment, Ellipse, RegularPolygon, Star, Triangle2, Trapezoid, Parallelogram, Rhombus2, Polyline, Bezier, Arc,
     Pie, Vesica2, Moon, Egg, Heart, Cross2,
-    Gyroid, SchwarzP, SchwarzD, Superellipsoid, Menger, Sierpinski, Julia, Blob
+    Gyroid, SchwarzP, SchwarzD, Superellipsoid, Menger, Sierpinski, Julia, Mandelbulb, Blob
 );
 
 declaration::list!($

@@ -133,6 +133,38 @@ fn julia_is_what_stays() {
 }
 
 #[test]
+fn the_mandelbulb_is_what_stays() {
+    let mut dice = Dice::new(4);
+    for (power, rounds) in [(8.0, 4), (2.0, 5), (3.0, 3), (5.0, 3)] {
+        let bulb = Mandelbulb::new(power, rounds.into());
+        let escape = 2.0_f64.powf(1.0 / (power - 1.0));
+        let next = |z: [f64; 3], c: [f64; 3]| -> [f64; 3] {
+            let r = z[0].hypot(z[1]).hypot(z[2]);
+            let (t, u) = (power * (z[1] / r).acos(), power * z[2].atan2(z[0]));
+            let turned = [t.sin() * u.cos(), t.cos(), t.sin() * u.sin()];
+            std::array::from_fn(|i| r.powf(power) * turned[i] + c[i])
+        };
+        let mut inside = 0;
+        for _ in 0..2000 {
+            let p = dice.point(&Bounds::centred([1.2; 3]));
+            let distance = at(&bulb, p);
+            let sizes = (0..rounds).scan(p, |z, _| {
+                *z = next(*z, p);
+                Some(z[0].hypot(z[1]).hypot(z[2]))
+            });
+            let start = p[0].hypot(p[1]).hypot(p[2]);
+            let stays = sizes.fold(start, f64::max) <= escape;
+            assert!(
+                (distance <= 0.0) == stays || distance.abs() < 1e-9,
+                "{distance} at {p:?}"
+            );
+            inside += u32::from(stays);
+        }
+        assert!(inside > 100, "{inside} of 2000 inside");
+    }
+}
+
+#[test]
 fn the_julia_set_of_zero_is_the_unit_ball() {
     let julia = Julia::new([0.0; 3], 0.0, 10.0);
     let mut dice = Dice::new(3);

@@ -36,7 +36,7 @@ pub use function::Function;
 pub use modifier::{Modifier, Similarity};
 pub use modifiers::{
     Bend, Elongate, Extrude, Mirror, MirroredRepeat, Offset, Polar, Repeat, Revolve, Rotate, Scale,
-    Shear, Shell, Taper, Translate, Twist,
+    Shear, Shell, Taper, Translate, Twist, Warp,
 };
 pub use primitive::Primitive;
 pub use profiles::{
@@ -67,7 +67,7 @@ declaration::list!($
     /// Any modifier of the catalogue.
     AnyModifier, with_modifier, with_compiled_modifier, with_recorded_modifier:
     Translate, Rotate, Scale, Mirror, Repeat, Twist, Offset, Shell, Extrude, Revolve;
-    recorded Bend, Taper, Shear, Elongate, Polar, MirroredRepeat
+    recorded Bend, Taper, Shear, Elongate, Polar, MirroredRepeat, Warp
 );
 
 declaration::list!($

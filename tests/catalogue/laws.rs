@@ -564,7 +564,9 @@ pub fn touched(modifier: &AnyModifier, dice: &mut Dice) -> Law {
     let bounds = node.bounds();
     // A shape that shrinks keeps its box: boxes are known for levels from 0 on.
     let shrinks = matches!(modifier, AnyModifier::Offset(o) if o.by < 0.0);
-    if bounds.is_empty() || !bounds.is_finite() || shrinks {
+    // The box of a warp is that of the worst noise, which is nowhere the one at the sides.
+    let is_random = matches!(modifier, AnyModifier::Warp(_));
+    if bounds.is_empty() || !bounds.is_finite() || shrinks || is_random {
         return Ok(());
     }
     for side in 0..6 {

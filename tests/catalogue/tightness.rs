@@ -31,12 +31,20 @@ struct Exception {
     reason: &'static str,
 }
 
-const EXCEPTIONS: &[Exception] = &[Exception {
-    entry: "extrude",
-    over: Some("ring"),
-    slack: 3.2,
-    reason: "a fast twist: at the corners of its box the slope of something round points away from the axis",
-}];
+const EXCEPTIONS: &[Exception] = &[
+    Exception {
+        entry: "extrude",
+        over: Some("ring"),
+        slack: 3.2,
+        reason: "a fast twist: at the corners of its box the slope of something round points away from the axis",
+    },
+    Exception {
+        entry: "warp",
+        over: None,
+        slack: 1.8,
+        reason: "the constant holds for any noise: few cells of one noise don't draw the steepest gradients at once",
+    },
+];
 
 /// How much slack is allowed, and by which exception.
 fn allowed(entry: &str, over: Option<&str>) -> f64 {

@@ -17,6 +17,7 @@ mod sweep;
 mod taper;
 mod translate;
 mod twist;
+mod warp;
 
 pub use bend::Bend;
 pub use elongate::Elongate;
@@ -34,3 +35,4 @@ pub use shell::Shell;
 pub use taper::Taper;
 pub use translate::Translate;
 pub use twist::Twist;
+pub use warp::Warp;

@@ -90,11 +90,11 @@ functions! {
     /// x held between low and high.
     Clamp = "clamp" (x, low, high) x.clamp(low, high);
     /// a for t = 0, b for t = 1, straight between.
-    Mix = "mix" (a, b, t) a + (b - a) * t;
+    Mix = "mix" (a, b, t) t.mix(a, b);
     /// 0 below low, 1 above high, a smooth cubic between.
     Smoothstep = "smoothstep" (low, high, x) {
         let t = ((x - low) / (high - low)).clamp(N::splat(0.0), N::splat(1.0));
-        t.square() * (N::splat(3.0) - t - t)
+        t.ease()
     };
     /// x to the power e.
     Pow = "pow" (x, e) x.pow(e);

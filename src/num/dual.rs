@@ -234,6 +234,28 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
     }
 
     #[inline(always)]
+    fn mix(self, a: Self, b: Self) -> Self {
+        let value = self.value.mix(a.value, b.value);
+        let rise = b.value - a.value;
+        let mut partial = a.partial;
+        for (d, (db, dt)) in partial
+            .iter_mut()
+            .zip(b.partial.into_iter().zip(self.partial))
+        {
+            *d = self.value.mix(*d, db) + rise * dt;
+        }
+        Self { value, partial }
+    }
+
+    /// The slope 6 t (1 - t) as 3/2 - 6 (t - 1/2)^2, of which an interval gives the exact range.
+    #[inline(always)]
+    fn ease(self) -> Self {
+        let from_middle = self.value - N::splat(0.5);
+        let slope = N::splat(1.5) - N::splat(6.0) * from_middle.square();
+        self.chain(self.value.ease(), slope)
+    }
+
+    #[inline(always)]
     fn square(self) -> Self {
         self.chain(self.value.square(), self.value + self.value)
     }

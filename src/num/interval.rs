@@ -411,6 +411,35 @@ impl Number for Interval {
         }
     }
 
+    /// For a share within [0, 1] it rises with both ends, and its extremes lie at the ends of the share.
+    fn mix(self, a: Self, b: Self) -> Self {
+        if self.lo < 0.0 || self.hi > 1.0 {
+            return a + (b - a) * self;
+        }
+        let [t, s] = [self.lo, self.hi].map(Self::point);
+        let between = |a: f64, b: f64| {
+            let (a, b) = (Self::point(a), Self::point(b));
+            (a + (b - a) * t).hull(a + (b - a) * s)
+        };
+        let (low, high) = (between(a.lo, b.lo), between(a.hi, b.hi));
+        // Numbers are computed with three roundings of values up to |a| + |b|, which may cancel.
+        let noise = 4.0 * f64::EPSILON * (a.magnitude() + b.magnitude());
+        Self::new((low.lo - noise).next_down(), (high.hi + noise).next_up())
+    }
+
+    /// It rises on [0, 1].
+    fn ease(self) -> Self {
+        let cubic = |t: Self| t.square() * (Self::point(3.0) - t - t);
+        if self.lo < 0.0 || self.hi > 1.0 {
+            return cubic(self);
+        }
+        let (low, high) = (cubic(Self::point(self.lo)), cubic(Self::point(self.hi)));
+        Self {
+            lo: low.lo.max(0.0),
+            hi: high.hi,
+        }
+    }
+
     fn square(self) -> Self {
         let (near, far) = (self.abs().lo, self.abs().hi);
         let square = |x: f64, round: fn(f64) -> f64| if x == 0.0 { 0.0 } else { round(x * x) };

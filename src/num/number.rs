@@ -82,6 +82,19 @@ pub trait Number:
         self.max(low).min(high)
     }
 
+    /// `a` for `self = 0`, `b` for `self = 1`, straight between: `a + (b - a) self`. An interval within [0, 1] gives no
+    /// more than lies between.
+    #[inline(always)]
+    fn mix(self, a: Self, b: Self) -> Self {
+        a + (b - a) * self
+    }
+
+    /// The cubic `t^2 (3 - 2 t)` that rises smoothly from 0 at `t = 0` to 1 at `t = 1`; meant for `self` in [0, 1].
+    #[inline(always)]
+    fn ease(self) -> Self {
+        self.square() * (Self::splat(3.0) - self - self)
+    }
+
     /// The square, which is never negative (tighter than `self * self` in an interval).
     #[inline(always)]
     fn square(self) -> Self {

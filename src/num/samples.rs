@@ -68,6 +68,8 @@ pub fn unary<N: Number>() -> Vec<(&'static str, Unary<N>)> {
         ("powi 6", |x| x.powi(6)),
         ("powi -1", |x| x.powi(-1)),
         ("powi -2", |x| x.powi(-2)),
+        ("ease", |x| x.clamp(N::splat(0.0), N::splat(1.0)).ease()),
+        ("ease beyond", N::ease),
         ("clamp", |x| x.clamp(N::splat(-0.5), N::splat(2.0))),
     ]
 }
@@ -88,6 +90,10 @@ pub fn binary<N: Number>() -> Vec<(&'static str, Binary<N>)> {
         ("noise", |x, y| N::lattice(Lattice::Noise, x, y, x - y)),
         ("voronoi", |x, y| N::lattice(Lattice::Voronoi, x, y, x - y)),
         ("direction_cosine", |x, y| x.direction_cosine(x.hypot(y))),
+        ("mix", |x, y| {
+            (x - y).clamp(N::splat(0.0), N::splat(1.0)).mix(x, y)
+        }),
+        ("mix beyond", |x, y| x.mix(y, x - y)),
         ("select_lt", |x, y| N::select_lt(x, y, x.square(), y)),
     ]
 }

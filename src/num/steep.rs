@@ -221,6 +221,25 @@ impl Number for Steep {
         self.one(Number::square)
     }
 
+    /// Within [0, 1] the slopes of `a` and `b` are mixed too; what the share itself adds is its slope times their
+    /// difference.
+    fn mix(self, a: Self, b: Self) -> Self {
+        let range = self.range.mix(a.range, b.range);
+        let share = self.range.value;
+        let of_ends = |t: f64| (times((1.0 - t).next_up(), a.slope) + times(t, b.slope)).next_up();
+        let mixed = if share.lo >= 0.0 && share.hi <= 1.0 {
+            of_ends(share.lo).max(of_ends(share.hi))
+        } else {
+            f64::INFINITY
+        };
+        let rise = (b.range.value - a.range.value).magnitude();
+        Self::new(range, (mixed + times(rise, self.slope)).next_up())
+    }
+
+    fn ease(self) -> Self {
+        self.one(Number::ease)
+    }
+
     fn hypot(self, o: Self) -> Self {
         Self::of(self.range.hypot(o.range), &[self, o], 1.0)
     }

@@ -117,6 +117,9 @@ impl Number for Symbol {
     fn clamp(self, low: Self, high: Self) -> Self {
         call(Function::Clamp, &[self, low, high])
     }
+    fn mix(self, a: Self, b: Self) -> Self {
+        call(Function::Mix, &[a, b, self])
+    }
     fn square(self) -> Self {
         self * self
     }

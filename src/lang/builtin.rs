@@ -189,6 +189,44 @@ impl Intrinsic {
             .map_or("", |(name, ..)| name)
     }
 
+    /// A line of script that shows it: statements that end in `let entry = ` and a shape; empty where there is nothing
+    /// to see.
+    pub fn example(self) -> &'static str {
+        match self {
+            Self::Checker => {
+                "material tiles { color: checker(#f0ece4, #30506a, size: 0.4) } let entry = sphere(0.9).paint(tiles)"
+            }
+            Self::Displace => {
+                "field waves(p) { return 0.05 * sin(9 * p.x) * sin(9 * p.y) } let entry = box(1.4, round: 0.2).displace(waves)"
+            }
+            Self::Fbm => {
+                "field rock(p) { return 0.12 * fbm(p * 2, octaves: 4) } let entry = sphere(0.85).displace(rock)"
+            }
+            Self::Gradient => {
+                "material dawn { color: gradient(#d8603a, #3a5fb0, from: [0, -0.8, 0], to: [0, 0.8, 0]) } let entry = sphere(0.9).paint(dawn)"
+            }
+            Self::Heightfield => {
+                "field hills(p) { return 0.35 * noise(p * 1.4 + [0.3, 0, 0.7]) } let entry = heightfield(hills, size: [1.7, 1.7])"
+            }
+            Self::Marble => {
+                "material stone { color: marble(#ece8e0, #4a5568, size: 0.5) } let entry = sphere(0.9).paint(stone)"
+            }
+            Self::Noise => {
+                "field lumps(p) { return 0.2 * noise(p * 2.5) } let entry = sphere(0.9).displace(lumps)"
+            }
+            Self::Stripes => {
+                "material awning { color: stripes(#f0ece4, #b0403a, width: 0.25) } let entry = sphere(0.9).paint(awning)"
+            }
+            Self::Voronoi => {
+                "field cells(p) { return 0.25 - 0.4 * voronoi(p * 2.5) } let entry = sphere(0.9).displace(cells)"
+            }
+            Self::Wood => {
+                "material plank { color: wood(#c8995c, #7a4a24, width: 0.15) } let entry = box([1.8, 1, 0.8]).paint(plank)"
+            }
+            _ => "",
+        }
+    }
+
     /// The names of its arguments, and whether each must be given.
     pub fn arguments(self) -> Vec<(&'static str, bool)> {
         let words = Self::ALL

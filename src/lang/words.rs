@@ -58,7 +58,8 @@ pub struct Word {
     pub parameters: &'static [Parameter],
     /// Where its formula and its Lipschitz rule come from; may be empty.
     pub source: &'static str,
-    /// A line of script that shows it; empty for functions.
+    /// A line of script that shows it: a shape, or statements that end in `let entry = ` and a shape; empty for most
+    /// functions.
     pub example: &'static str,
     /// The shape that a call without arguments makes, of solids and profiles.
     pub shape: Option<Arc<Node>>,
@@ -85,11 +86,14 @@ impl Word {
                 .map(|d| Self::entry(d, Group::Modifier)),
         );
         let mut functions: Vec<Self> = Function::ALL.iter().map(|f| Self::function(*f)).collect();
-        functions.extend(Intrinsic::ALL.map(|(name, _, arguments, gives)| Self {
-            signature: format!("{name}({arguments})"),
-            summary: sentence(gives),
-            ..Self::named(name, Group::Function)
-        }));
+        functions.extend(
+            Intrinsic::ALL.map(|(name, intrinsic, arguments, gives)| Self {
+                signature: format!("{name}({arguments})"),
+                summary: sentence(gives),
+                example: intrinsic.example(),
+                ..Self::named(name, Group::Function)
+            }),
+        );
         functions.sort_by_key(|word| word.name);
         all.extend(functions);
         all
@@ -105,7 +109,12 @@ impl Word {
         let (before, line) = STAGE.split_once("let entry")?;
         let (_, after) = line.split_once('\n')?;
         let example = self.example;
-        (!example.is_empty()).then(|| format!("{before}let entry = {example}\n{after}"))
+        let entry = if example.contains("let entry") {
+            example.to_string()
+        } else {
+            format!("let entry = {example}")
+        };
+        (!example.is_empty()).then(|| format!("{before}{entry}\n{after}"))
     }
 
     fn named(name: &'static str, group: Group) -> Self {

@@ -194,7 +194,7 @@ impl Intrinsic {
     pub fn example(self) -> &'static str {
         match self {
             Self::Checker => {
-                "material tiles { color: checker(#f0ece4, #30506a, size: 0.4) } let entry = sphere(0.9).paint(tiles)"
+                "material tiles { color: checker(#f0ece4, #86a3c4, size: 0.5) } let entry = sphere(0.9).paint(tiles)"
             }
             Self::Displace => {
                 "field waves(p) { return 0.05 * sin(9 * p.x) * sin(9 * p.y) } let entry = box(1.4, round: 0.2).displace(waves)"

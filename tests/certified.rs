@@ -1,7 +1,7 @@
 //! Fields without any number from their author are traced without one wrong pixel: every pixel is compared with a
 //! reference that shares nothing with the tracer but the field, ranges of it along the ray in f64.
 
-use fieldstone::lang::load_text;
+use fieldstone::lang::{load, load_text};
 use fieldstone::num::{Interval, Steep, Vec3};
 use fieldstone::render::View;
 use fieldstone::scene::{Node, Scene, sampled_supremum};
@@ -221,4 +221,48 @@ fn solids_of_fields_have_bounds() {
     let bounds = endless.shown[0].bounds();
     assert!(bounds.high[1] >= 0.2 && bounds.high[1] < 0.3, "{bounds:?}");
     assert_eq!(bounds.low, [f64::NEG_INFINITY; 3]);
+}
+
+#[test]
+fn hard_unions_are_traced_part_by_part() {
+    let scene = scene(
+        "let column = box([0.4, 2, 0.4]).twist(180deg)
+         field ball(p) { return p.x^2 + p.y^2 + p.z^2 - 1 }
+         show (column | plane(\"y\", -1)).translate([0, 0.1, 0])
+         show ball.translate([3, 0, 0]) | plane(\"y\", -1)
+         light { toward: [1, 2, 1] }",
+    );
+    let world = World::new(&scene).expect("every part has a constant on its bounds");
+    assert_eq!(world.parts(), 4);
+}
+
+#[test]
+fn no_node_of_the_examples_is_without_a_certificate() {
+    fn check(node: &Node, file: &str) -> usize {
+        assert!(
+            node.lipschitz().is_finite(),
+            "{file}: `{}` has no constant",
+            node.kind()
+        );
+        assert!(!node.rule().is_empty(), "{file}: {}", node.kind());
+        1 + node
+            .children()
+            .iter()
+            .map(|child| check(child, file))
+            .sum::<usize>()
+    }
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/examples");
+    let mut nodes = 0;
+    for entry in std::fs::read_dir(folder).expect("examples").flatten() {
+        let path = entry.path();
+        if path.extension().is_none_or(|e| e != "sdf") {
+            continue;
+        }
+        let file = path.display().to_string();
+        let loaded = load(&path, &[], &SceneTracer::default());
+        let loaded = loaded.unwrap_or_else(|error| panic!("{file}: {error:?}"));
+        let shown = &loaded.scene.shown;
+        nodes += shown.iter().map(|node| check(node, &file)).sum::<usize>();
+    }
+    assert!(nodes > 500, "{nodes} nodes");
 }

@@ -168,8 +168,8 @@ impl<'a> Machine<'a> {
                     "give it thickness with `.extrude(height)`, or turn it with `.revolve()`";
                 return self.fail(error.help(help));
             }
-            if !node.lipschitz().is_finite() {
-                return self.fail(super::certificates::without_constant(node, value.span));
+            if let Some(part) = node.untraceable() {
+                return self.fail(super::certificates::without_constant(part, value.span));
             }
             if node.place().is_none() {
                 *node = node.labelled(None, Some(place.clone()));

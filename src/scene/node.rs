@@ -484,6 +484,27 @@ impl Node {
         }
     }
 
+    /// The first part that cannot be traced for want of a finite constant; none where there is no such part. A hard union
+    /// is traced part by part, each on its own bounds, so it needs no constant of its own.
+    pub fn untraceable(&self) -> Option<&Self> {
+        if self.lipschitz.is_finite() {
+            return None;
+        }
+        match &self.shape {
+            Shape::Combination(combination, children)
+                if combination.operation == Operation::Union && combination.blend.is_hard() =>
+            {
+                children.iter().find_map(|child| child.untraceable())
+            }
+            Shape::Modifier(modifier, child)
+                if with_modifier!(modifier, m => m.similarity()).is_some() =>
+            {
+                child.untraceable()
+            }
+            _ => Some(self),
+        }
+    }
+
     /// The innermost node that has no finite Lipschitz constant on the region where this one's bounds make it evaluated,
     /// with that region; none where the node has a constant.
     pub fn without_constant(&self) -> Option<(&Self, Bounds)> {

@@ -15,7 +15,7 @@ entry! {
         /// The size of the upper end, as a multiple of the lower one's.
         scale: f64, Number, Range::POSITIVE, default 1.0;
     }
-    source "Quilez, 2D to 3D (extrusion); the larger of the profile's constant and 1; times         sqrt(1 + (t^2 + g^2) r^2) / s with t the twist and g the relative growth per unit, r the distance from the axis"
+    source "Quilez, 2D to 3D (extrusion); the larger of the profile's constant and 1; times sqrt(1 + (t^2 + g^2) r^2) / s with t the twist and g the relative growth per unit, r the distance from the axis"
     example "rectangle([1, 0.5], round: 0.1).extrude(1, twist: 90deg, scale: 0.7).rotate(x: -90deg)"
 }
 

@@ -185,8 +185,8 @@ impl Wedge {
 /// How many pairs of runs of edges [`crossing_edges`] looks at: some tenths of a second.
 const MOST_PAIRS: usize = 1 << 24;
 
-/// Two edges of the closed outline through `corners` that cross inside of both, by the places of their first corners.
-/// Edges may touch: an outline then still has an inside.
+/// Two edges of the closed outline through `corners` that cross inside of both or run along each other, by the places of
+/// their first corners. Edges may touch at a point: an outline then still has an inside next to every edge.
 ///
 /// Boxes around runs of 2^k edges, halved where they overlap: about n log n steps for most outlines. Where long edges
 /// lie close together it takes more; after [`MOST_PAIRS`] the outline is taken as it is.
@@ -244,5 +244,19 @@ fn cross([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
             (left - right).signum()
         }
     };
-    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+    let [of_c, of_d] = [side(a, b, c), side(a, b, d)];
+    if of_c == 0.0 && of_d == 0.0 {
+        return overlap([a, b], [c, d]) > 0.0;
+    }
+    of_c * of_d < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+}
+
+/// How much of the first segment the second covers, as a share of it, where both lie on one line; rounding does not count.
+fn overlap([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> f64 {
+    let way = [b[0] - a[0], b[1] - a[1]];
+    let squared = way[0] * way[0] + way[1] * way[1];
+    let place = |p: [f64; 2]| ((p[0] - a[0]) * way[0] + (p[1] - a[1]) * way[1]) / squared;
+    let (s, t) = (place(c), place(d));
+    let covered = s.max(t).min(1.0) - s.min(t).max(0.0);
+    if covered > 1e-12 { covered } else { 0.0 }
 }

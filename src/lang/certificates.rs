@@ -29,16 +29,7 @@ pub fn without_constant(node: &Node, at: Span) -> Diagnostic {
 
 /// The error with what was found in the field called `name`.
 fn because_of(error: Diagnostic, name: &str, found: &Trouble) -> Diagnostic {
-    let size = found.point.iter().fold(0.0, |n: f64, c| n.max(c.abs()));
-    // The search ends next to the place, not on it: at a coordinate of 0 it is off by what does not count.
-    let rounded = |c: f64| {
-        if c.abs() < 1e-6 * size {
-            0.0
-        } else {
-            shortened(c)
-        }
-    };
-    let near = format!("near {}", Value::Vector3(found.point.map(rounded)));
+    let near = near(found.point);
     let (what, help) = match found.obstacle {
         Obstacle::Choice(gap) if gap > 1e-6 => (
             format!("this jumps by {} {near}", written(shortened(gap))),
@@ -103,6 +94,20 @@ fn over_region(error: Diagnostic, node: &Node, culprit: &Node, region: &Bounds) 
             "a jump (`floor`, `if`), a pole (`1 / x`) or a root at 0 may be the cause: remove it, or claim a constant, \
              as in `field f(p) lipschitz 2 { ... }`",
         )
+}
+
+/// "near" and the point, rounded: the search for it ends next to the place, not on it, so at a coordinate of 0 it is off by
+/// what does not count.
+pub fn near(point: [f64; 3]) -> String {
+    let size = point.iter().fold(0.0, |n: f64, c| n.max(c.abs()));
+    let rounded = |c: f64| {
+        if c.abs() < 1e-6 * size {
+            0.0
+        } else {
+            shortened(c)
+        }
+    };
+    format!("near {}", Value::Vector3(point.map(rounded)))
 }
 
 /// A number with four digits, for reading.

@@ -227,7 +227,9 @@ impl<'a> Machine<'a> {
                 Some("the axes are \"x\", \"y\" and \"z\"".into())
             }
             (Value::Vector2([x, y]), Kind::Vector3 | Kind::Factors) => {
-                Some(format!("in space there are three components: `[{x}, {y}, 0]`"))
+                // Where 0 is not allowed, the third component is as large as the second.
+                let z = if parameter.range.contains(0.0) { 0.0 } else { *y };
+                Some(format!("in space there are three components: `[{x}, {y}, {z}]`"))
             }
             (Value::Angle(_), Kind::Number) => Some("lengths have no unit".into()),
             _ => default_help(parameter),

@@ -171,7 +171,7 @@ impl<'a> Machine<'a> {
     }
 
     /// Counts what it took to derive constants of fields since the last time.
-    pub fn count_effort(&mut self, at: Span) -> Eval<()> {
+    fn count_effort(&mut self, at: Span) -> Eval<()> {
         if self.derived.is_empty() {
             return Ok(());
         }

@@ -101,7 +101,16 @@ impl<'a> Machine<'a> {
         match &given.value {
             Value::Routine(RoutineKind::Field, id) => self.field_shape(*id, given.span),
             Value::Shape(node) if matches!(node.shape(), Shape::Field(_)) => Ok(node.clone()),
-            _ => self.unfit(given, callee, "a field"),
+            _ => {
+                let message = format!(
+                    "`{callee}` expects a field, but this is {}",
+                    given.value.noun()
+                );
+                let error = Diagnostic::error(given.span, message).label(given.value.shown());
+                self.fail(error.help(
+                    "write it as a statement, `field f(p) { return 0.1 * sin(9 * p.x) }`, and pass `f`",
+                ))
+            }
         }
     }
 }

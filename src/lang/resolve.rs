@@ -415,6 +415,14 @@ fn foreign_word(word: &str) -> Option<&'static str> {
         "cube" | "cuboid" => "boxes of all kinds are `box([w, h, d])`",
         "PI" => "it is written `pi`",
         "color" | "colour" => "colours are written `#d9a441` or `rgb(r, g, b)`",
+        "p" => {
+            "a point has a name inside of a field or pattern: `field f(p) { return noise(p) }`, and its word is passed on"
+        }
+        "red" | "green" | "blue" | "white" | "black" | "yellow" => {
+            "colours are written `#d9a441` or `rgb(r, g, b)`"
+        }
+        "hexagon" => "it is `regular_polygon(6)`, or `prism(6)` in space",
+        "metaballs" => "metaballs are a `blob`",
         "move" => "shapes are moved with `.translate([x, y, z])`",
         _ => return None,
     })

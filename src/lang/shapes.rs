@@ -36,6 +36,9 @@ impl<'a> Machine<'a> {
                 error.help(format!("call it, as in `{}(...)`", builtin.name()))
             }
             Value::Routine(..) => error.help("call it: `f(x)`"),
+            Value::Blend(_) => {
+                error.help("a blend is given by name, as in `union(a, b, blend: smooth(0.2))`")
+            }
             _ => error,
         })
     }

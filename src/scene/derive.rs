@@ -44,15 +44,16 @@ pub fn range_of_graph(graph: &Graph, region: Bounds) -> Interval {
 }
 
 /// The length of the gradient at a point.
-fn slope_at(graph: &Graph, p: [f64; 3]) -> f64 {
-    let [x, y, z] = std::array::from_fn(|i| Dual::variable(p[i], i));
+fn steepness(graph: &Graph, point: [f64; 3]) -> Refutation {
+    let [x, y, z] = std::array::from_fn(|i| Dual::variable(point[i], i));
     let field: Dual<f64, 3> = graph.value(&Vec3::new(x, y, z));
-    field.partial.iter().fold(0.0, |n: f64, d| n.hypot(*d))
+    let slope = field.partial.iter().fold(0.0, |n: f64, d| n.hypot(*d));
+    Refutation { point, slope }
 }
 
 /// A Lipschitz constant of the graph's first output on `region`: the largest gradient, at most 3 % above it where
 /// a budget of 32 768 boxes allows; infinite where none is known.
-pub fn lipschitz_of_graph(graph: &Graph, region: Bounds) -> f64 {
+pub(super) fn lipschitz_of_graph(graph: &Graph, region: Bounds) -> f64 {
     if region.is_empty() {
         return 0.0;
     }
@@ -62,7 +63,8 @@ pub fn lipschitz_of_graph(graph: &Graph, region: Bounds) -> f64 {
     }
     let slack = SLACK * region.radius();
     graph.remembered(region, slack, |region| {
-        derived(graph, region, of_terms(graph, region))
+        let found = derive(graph, region, of_terms(graph, region));
+        (found.bound, found.boxes)
     })
 }
 
@@ -76,19 +78,29 @@ fn of_terms(graph: &Graph, region: Bounds) -> f64 {
     constants.fold(0.0, |sum, constant| (sum + constant).next_up())
 }
 
-/// The constant on a finite region where `most_steep` is one already, and how many boxes were looked at.
-fn derived(graph: &Graph, region: Bounds, most_steep: f64) -> (f64, usize) {
+/// What the search for a constant finds.
+struct Derivation {
+    /// The constant.
+    bound: f64,
+    /// The steepest point that was met.
+    steepest: Refutation,
+    /// How many boxes were looked at.
+    boxes: usize,
+}
+
+/// The constant on a finite region where `most_steep` is one already.
+fn derive(graph: &Graph, region: Bounds, most_steep: f64) -> Derivation {
     let first = Cell {
         bound: gradient_bound(graph, region).min(most_steep),
         region,
     };
     let most = (MAX_WORK / graph.work().max(1)).clamp(1, MAX_BOXES as u64) as usize;
-    let mut steepest = slope_at(graph, region.centre());
+    let mut steepest = steepness(graph, region.centre());
     let mut cells = BinaryHeap::from([first]);
     // The cell with the largest bound is cut in half until what it says is nearly attained.
     while cells.len() < most {
         let top = cells.peek().expect("the region's cells cover it").bound;
-        if top <= steepest * ENOUGH {
+        if top <= steepest.slope * ENOUGH {
             break;
         }
         let cell = cells.pop().expect("peeked just now");
@@ -98,9 +110,10 @@ fn derived(graph: &Graph, region: Bounds, most_steep: f64) -> (f64, usize) {
             break;
         }
         for half in halves {
-            let slope = slope_at(graph, half.centre());
-            if slope.is_finite() {
-                steepest = steepest.max(slope);
+            let found = steepness(graph, half.centre());
+            if found.slope.is_finite() && (found.slope > steepest.slope || steepest.slope.is_nan())
+            {
+                steepest = found;
             }
             cells.push(Cell {
                 bound: gradient_bound(graph, half).min(cell.bound),
@@ -109,7 +122,11 @@ fn derived(graph: &Graph, region: Bounds, most_steep: f64) -> (f64, usize) {
         }
     }
     let bound = cells.peek().map_or(f64::INFINITY, |cell| cell.bound);
-    (bound, cells.len())
+    Derivation {
+        bound,
+        steepest,
+        boxes: cells.len(),
+    }
 }
 
 /// What keeps a graph from having a finite constant, and a place where it does.
@@ -185,28 +202,66 @@ fn one_period(region: Bounds, periods: [Option<f64>; 3]) -> Bounds {
     part
 }
 
-/// A point in `region` where the field is steeper than `claimed`, if sampling finds one. Infinite sides are sampled up
-/// to 10 units from the origin.
-pub fn refute(graph: &Graph, claimed: f64, region: Bounds) -> Option<Refutation> {
+/// What becomes of a claimed constant that is put to the test.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Claim {
+    /// A point shows that it is too small.
+    Refuted(Refutation),
+    /// The value jumps here.
+    Jumps([f64; 3]),
+    /// No point was found that refutes it; ranges show that this constant holds (infinite where they show none).
+    Derived(f64),
+}
+
+/// Puts a claim about the slope of a graph on `region` to the test: by samples, by the steepest points that the derivation
+/// of a constant meets, and on both sides of what may be a jump. Infinite sides are sampled up to 10 units from the
+/// origin. Gives how many operations the derivation took too.
+pub fn refute(graph: &Graph, claimed: f64, region: Bounds) -> (Claim, u64) {
     const MOST: u64 = 4096;
     // Large graphs get fewer samples, so that this takes no longer than the derivation of a constant.
     let samples = (MAX_WORK / graph.work().max(1)).clamp(1, MOST);
+    let everywhere = gradient_bound(graph, region);
     let region = searched(region);
-    if region.is_empty() || gradient_bound(graph, region) <= claimed {
-        return None;
+    if region.is_empty() || everywhere <= claimed {
+        return (Claim::Derived(everywhere), 0);
     }
-    let steepest = (0..samples)
-        .map(|i| {
-            let point = sample(&region, i);
-            Refutation {
-                point,
-                slope: slope_at(graph, point),
-            }
-        })
-        .filter(|r| r.slope.is_finite())
-        .max_by(|a, b| a.slope.total_cmp(&b.slope))?;
     // A part in 10^9 is rounding, not a refutation.
-    (steepest.slope > claimed * (1.0 + 1e-9)).then_some(steepest)
+    let refutes = |r: &Refutation| r.slope.is_finite() && r.slope > claimed * (1.0 + 1e-9);
+    let sampled = (0..samples)
+        .map(|i| steepness(graph, sample(&region, i)))
+        .filter(refutes)
+        .max_by(|a, b| a.slope.total_cmp(&b.slope));
+    if let Some(found) = sampled {
+        return (Claim::Refuted(found), 0);
+    }
+    let found = derive(graph, region, of_terms(graph, region));
+    let effort = found.boxes as u64 * graph.work();
+    if refutes(&found.steepest) {
+        return (Claim::Refuted(found.steepest), effort);
+    }
+    let jump = (found.bound == f64::INFINITY)
+        .then(|| jump(graph, region, claimed))
+        .flatten();
+    match jump {
+        Some(point) => (Claim::Jumps(point), effort),
+        None => (Claim::Derived(found.bound), effort),
+    }
+}
+
+/// A place that may be a jump, between two points around which the value does change by more than `claimed` allows.
+fn jump(graph: &Graph, region: Bounds, claimed: f64) -> Option<[f64; 3]> {
+    let Trouble { point, .. } = trouble(graph, region)?;
+    let reach = 1e-6 * (1.0 + region.radius());
+    let value = |p: [f64; 3]| graph.value(&Vec3::<f64>::splat(p));
+    let is_jump = |axis: usize| {
+        let (mut before, mut behind) = (point, point);
+        before[axis] -= reach;
+        behind[axis] += reach;
+        let slope = (value(behind) - value(before)).abs() / (2.0 * reach);
+        // Rounding of the values is far below a tenth of what a slope of `claimed` makes over such a distance.
+        slope.is_finite() && slope > 1.1 * claimed
+    };
+    (0..3).any(is_jump).then_some(point)
 }
 
 /// Point number `i` of a sequence that fills the box evenly. Source: Roberts 2018, R3 sequence.

@@ -18,9 +18,7 @@ mod tracer;
 use std::sync::Arc;
 
 pub use camera::{Camera, Projection};
-pub use derive::{
-    Refutation, Trouble, gradient_bound, lipschitz_of_graph, range_of_graph, refute, trouble,
-};
+pub use derive::{Claim, Refutation, Trouble, gradient_bound, range_of_graph, refute, trouble};
 pub use environment::{Fog, Sky};
 pub use fault::Fault;
 pub use graph::{Graph, GraphBuilder, Id, Mark, Obstacle, Parts};

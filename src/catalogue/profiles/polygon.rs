@@ -75,7 +75,7 @@ impl Primitive for Polygon {
             return Err((
                 "points",
                 format!(
-                    "must not cross themselves, but the edge {first} crosses the edge {second}"
+                    "must not cross themselves, but the edge {first} crosses the edge {second} or runs along it"
                 ),
             ));
         }

@@ -48,6 +48,12 @@ fn the_page_is_what_the_declarations_say() {
         stored == page,
         "stale: `FIELDSTONE_BLESS=1 cargo test --test reference` writes it anew"
     );
+    let pictures = page.split("src=\"reference/").skip(1);
+    let names: Vec<&str> = pictures.filter_map(|rest| rest.split('"').next()).collect();
+    assert!(names.len() > 90, "{} pictures", names.len());
+    for name in names {
+        assert!(root().join("docs/reference").join(name).exists(), "{name}");
+    }
 }
 
 #[test]
@@ -205,4 +211,17 @@ fn reference_answers() {
     let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
     assert_eq!(code, Some(0));
     assert_eq!(json[0]["parameters"][1]["default"], "0.25");
+}
+
+#[test]
+fn one_word_is_one_section_of_the_page() {
+    let page =
+        std::fs::read_to_string(root().join("docs/reference.md")).expect("docs/reference.md");
+    for name in ["torus", "displace"] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_fieldstone"));
+        let output = command.args(["reference", name, "--markdown"]).output();
+        let section = String::from_utf8(output.expect("the command runs").stdout).expect("text");
+        assert!(section.starts_with(&format!("\n### {name}\n")), "{section}");
+        assert!(page.contains(&section), "{section}");
+    }
 }

@@ -17,7 +17,7 @@ const WIDTH: usize = 100;
 const AFTER_HELP: &str = "\
 Without a name, all words with a line on each. With one, all that is known of it: how it is called, its parameters \
 with what values they take, its class and Lipschitz constant and where they come from, and a line of script that \
-shows it. --markdown prints the page docs/reference.md.
+shows it. --markdown prints the page docs/reference.md, or the section of one word.
 
 Examples:
   fieldstone reference
@@ -31,7 +31,7 @@ pub struct Arguments {
     /// A word of scripts
     name: Option<String>,
     /// Answer as a page in Markdown
-    #[arg(long, conflicts_with_all = ["json", "name"])]
+    #[arg(long, conflicts_with = "json")]
     markdown: bool,
     /// Answer in JSON
     #[arg(long)]
@@ -51,7 +51,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
     }
     if arguments.markdown {
-        return answer(&page(&words));
+        let sections = || words.iter().map(section).collect();
+        return answer(
+            &arguments
+                .name
+                .as_ref()
+                .map_or_else(|| page(&words), |_| sections()),
+        );
     }
     if arguments.json {
         let all: Vec<Value> = words.iter().map(to_json).collect();
@@ -266,7 +272,7 @@ The class says what the value of a field means: *exact*, it is the distance to t
 defaults; of what joins or changes shapes, those of the example, by the rule.
 ";
 
-/// The page: each group with its entries; functions in a table.
+/// The page: each group with its pictured entries, and a table of the others.
 fn page(words: &[Word]) -> String {
     let mut text = String::from(PAGE_HEAD);
     let groups = grouped(words);
@@ -277,13 +283,14 @@ fn page(words: &[Word]) -> String {
             .filter(is_pictured)
             .map(|w| link(w))
             .collect();
+        let (pictured, others): (Vec<&Word>, Vec<&Word>) =
+            members.iter().partition(|word| !word.example.is_empty());
         text.push_str(&format!("\n## {title}\n\n"));
-        if links.is_empty() {
-            text.push_str(&table(members));
-        } else {
-            text.push_str(&format!("{}\n", links.join(" · ")));
-            text.extend(members.iter().map(|word| section(word)));
+        if !others.is_empty() {
+            text.push_str(&format!("{}\n", table(&others)));
         }
+        text.push_str(&format!("{}\n", links.join(" · ")));
+        text.extend(pictured.iter().map(|word| section(word)));
     }
     text
 }
@@ -309,14 +316,16 @@ fn table(words: &[&Word]) -> String {
     text
 }
 
-/// An entry with its picture.
+/// An entry with its picture, if it has one.
 fn section(word: &Word) -> String {
     let (name, summary) = (word.name, escaped(&word.summary));
-    let image = format!("src=\"reference/{name}.png\" alt=\"{name}\" width=\"160\" height=\"120\"");
-    let signature = &word.signature;
-    let mut text = format!(
-        "\n### {name}\n\n<img {image} align=\"right\">\n\n{summary}\n\n    {signature}\n\n"
-    );
+    let mut text = format!("\n### {name}\n\n");
+    if !word.example.is_empty() {
+        text.push_str(&format!(
+            "<img src=\"reference/{name}.png\" alt=\"{name}\" width=\"160\" height=\"120\" align=\"right\">\n\n"
+        ));
+    }
+    text.push_str(&format!("{summary}\n\n    {}\n\n", word.signature));
     for parameter in word.parameters {
         let values = escaped(&values_in_words(parameter));
         let default = default_in_words(parameter, "`");

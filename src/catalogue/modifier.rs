@@ -1,6 +1,6 @@
 //! Modifiers: transforms and warps of one child.
 
-use super::{Bounds, Declared, Traits};
+use super::{Bounds, Class, Declared, Traits};
 use crate::num::{Number, Vec3};
 
 /// The mathematics of a node with one child.
@@ -53,6 +53,24 @@ pub trait Modifier: Declared {
     fn check(&self) -> Result<(), (&'static str, String)> {
         Ok(())
     }
+}
+
+/// What is left of what is known about a field when space is warped without any symmetry.
+pub(super) fn warped(child: &Traits) -> Traits {
+    Traits {
+        class: Class::Lipschitz.min(child.class),
+        is_convex: false,
+        is_symmetric: [false; 3],
+        ..*child
+    }
+}
+
+/// That the child is a shape in space; `problem` says why a profile will not do.
+pub(super) fn needs_space(child: &Traits, problem: &str) -> Result<(), (String, String)> {
+    if child.is_planar {
+        return Err((problem.into(), "extrude it first".into()));
+    }
+    Ok(())
 }
 
 /// The product of the matrix with these rows and `p`. Written out: a closure inside of `array::map` would be compiled

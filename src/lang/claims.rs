@@ -1,9 +1,9 @@
 //! Lipschitz constants that a script claims, put to the test where the field is used.
 
-use super::ast::GlobalId;
 use super::certificates::near;
 use super::machine::Machine;
 use super::report::Diagnostic;
+use super::source::Span;
 use super::value::Value;
 use crate::catalogue::{Bounds, Modifier, with_modifier, written};
 use crate::scene::{Claim, FieldShape, Node, Refutation, Shape, refute};
@@ -45,103 +45,80 @@ impl Machine<'_> {
                 return;
             }
             let mut derived: f64 = 0.0;
-            let mut is_refuted = false;
+            let mut verdict = Claim::Derived(0.0);
             for region in regions {
-                let (verdict, effort) = refute(&field.graph, claimed, region);
+                let effort;
+                (verdict, effort) = refute(&field.graph, claimed, region);
                 if at.is_some_and(|at| self.tick(effort / 2, at).is_err()) {
                     return;
                 }
-                match verdict {
-                    Claim::Derived(constant) => derived = derived.max(constant),
-                    Claim::Refuted(found) => self.report_refuted(id, claimed, found),
-                    Claim::Jumps(point) => self.report_jump(id, point),
-                }
-                if !matches!(verdict, Claim::Derived(_)) {
-                    is_refuted = true;
+                let Claim::Derived(constant) = verdict else {
                     break;
+                };
+                derived = derived.max(constant);
+            }
+            let Some(at) = at else { continue };
+            let name = &self.routine(id).name.text;
+            match verdict {
+                Claim::Refuted(found) => {
+                    self.diagnostics.push(refuted(name, at, claimed, found));
                 }
-            }
-            if is_refuted {
-                continue;
-            }
-            if derived > 0.0 && claimed > LOOSE * derived {
-                self.report_loose(id, claimed, derived);
-            }
-            if derived.is_finite() && derived > OPEN * claimed {
-                self.report_open(id, claimed, derived);
+                Claim::Jumps(point) => self.diagnostics.push(jumps(name, at, point)),
+                Claim::Derived(_) if derived > 0.0 && claimed > LOOSE * derived => {
+                    self.diagnostics.push(loose(name, at, claimed, derived));
+                }
+                Claim::Derived(_) if derived.is_finite() && derived > OPEN * claimed => {
+                    self.diagnostics.push(open(name, at, claimed, derived));
+                }
+                Claim::Derived(_) => {}
             }
         }
     }
+}
 
-    fn report_jump(&mut self, id: GlobalId, point: [f64; 3]) {
-        let routine = self.routine(id);
-        let Some(claim) = &routine.claim else {
-            return;
-        };
-        let name = &routine.name.text;
-        let message = format!("the claimed Lipschitz constant of `{name}` is refuted");
-        let error = Diagnostic::error(claim.span, message)
-            .label(format!("its value jumps {}", near(point)))
-            .help("what jumps has no Lipschitz constant: make it continuous, as `abs`, `min`, `max` and `clamp` are");
-        self.diagnostics.push(error);
-    }
+fn jumps(name: &str, at: Span, point: [f64; 3]) -> Diagnostic {
+    let message = format!("the claimed Lipschitz constant of `{name}` is refuted");
+    Diagnostic::error(at, message)
+        .label(format!("its value jumps {}", near(point)))
+        .help("what jumps has no Lipschitz constant: make it continuous, as `abs`, `min`, `max` and `clamp` are")
+}
 
-    fn report_open(&mut self, id: GlobalId, claimed: f64, derived: f64) {
-        let routine = self.routine(id);
-        let Some(claim) = &routine.claim else {
-            return;
-        };
-        let name = &routine.name.text;
-        let derived = written(rounded_up(derived));
-        let message = format!("the claimed Lipschitz constant of `{name}` is not proved");
-        let warning = Diagnostic::warning(claim.span, message)
-            .label(format!(
-                "claimed {}, no point refutes it, but ranges only show {derived}",
-                written(claimed)
-            ))
-            .help(format!("be sure, or claim {derived}"));
-        self.diagnostics.push(warning);
-    }
+fn open(name: &str, at: Span, claimed: f64, derived: f64) -> Diagnostic {
+    let derived = written(rounded_up(derived));
+    let message = format!("the claimed Lipschitz constant of `{name}` is not proved");
+    Diagnostic::warning(at, message)
+        .label(format!(
+            "claimed {}, no point refutes it, but ranges only show {derived}",
+            written(claimed)
+        ))
+        .help(format!("be sure, or claim {derived}"))
+}
 
-    fn report_loose(&mut self, id: GlobalId, claimed: f64, derived: f64) {
-        let routine = self.routine(id);
-        let Some(claim) = &routine.claim else {
-            return;
-        };
-        let name = &routine.name.text;
-        let derived = written(rounded_up(derived));
-        let message =
-            format!("the claimed Lipschitz constant of `{name}` is loose, which costs time");
-        let warning = Diagnostic::warning(claim.span, message)
-            .label(format!(
-                "claimed {}, but {derived} is derived",
-                written(claimed)
-            ))
-            .help(format!(
-                "claim {derived}, or leave `lipschitz` out to have it derived"
-            ));
-        self.diagnostics.push(warning);
-    }
+fn loose(name: &str, at: Span, claimed: f64, derived: f64) -> Diagnostic {
+    let derived = written(rounded_up(derived));
+    let message = format!("the claimed Lipschitz constant of `{name}` is loose, which costs time");
+    Diagnostic::warning(at, message)
+        .label(format!(
+            "claimed {}, but {derived} is derived",
+            written(claimed)
+        ))
+        .help(format!(
+            "claim {derived}, or leave `lipschitz` out to have it derived"
+        ))
+}
 
-    fn report_refuted(&mut self, id: GlobalId, claimed: f64, found: Refutation) {
-        let routine = self.routine(id);
-        let Some(claim) = &routine.claim else {
-            return;
-        };
-        let name = &routine.name.text;
-        let message = format!("the claimed Lipschitz constant of `{name}` is refuted");
-        let slope = written(found.slope);
-        let error = Diagnostic::error(claim.span, message)
-            .label(format!(
-                "claimed {}, but the slope is {slope} at {}",
-                written(claimed),
-                Value::Vector3(found.point)
-            ))
-            .help(format!(
-                "claim at least {slope}, or leave `lipschitz` out to have it derived"
-            ));
-        self.diagnostics.push(error);
-    }
+fn refuted(name: &str, at: Span, claimed: f64, found: Refutation) -> Diagnostic {
+    let slope = written(found.slope);
+    let message = format!("the claimed Lipschitz constant of `{name}` is refuted");
+    Diagnostic::error(at, message)
+        .label(format!(
+            "claimed {}, but the slope is {slope} at {}",
+            written(claimed),
+            Value::Vector3(found.point)
+        ))
+        .help(format!(
+            "claim at least {slope}, or leave `lipschitz` out to have it derived"
+        ))
 }
 
 /// The number with three digits, not below it but for rounding.

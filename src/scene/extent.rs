@@ -1,8 +1,8 @@
 //! How far the solid of a user's field reaches, by ranges of the field over half-spaces and slabs.
 
 use super::Graph;
+use super::derive::range_of_graph;
 use crate::catalogue::Bounds;
-use crate::num::{Interval, Steep, Vec3};
 
 /// How many operations of the graph the search for one box may take.
 const MAX_WORK: u64 = 1 << 19;
@@ -54,11 +54,7 @@ impl Search<'_> {
     /// Whether the field is above the level everywhere in `region`.
     fn is_clear(&mut self, region: &Bounds) -> bool {
         self.looks += 1;
-        let [x, y, z] = std::array::from_fn(|i| {
-            Steep::variable(Interval::new(region.low[i], region.high[i]), i)
-        });
-        let field: Steep = self.graph.value(&Vec3::new(x, y, z));
-        field.value().lo > self.level
+        range_of_graph(self.graph, *region).lo > self.level
     }
 
     /// Cuts off the half-spaces across `axis` that are clear, where a side is still infinite.

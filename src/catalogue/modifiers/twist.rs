@@ -1,7 +1,8 @@
 //! Twist.
 
 use super::sweep::{largest_stretch, swept};
-use crate::catalogue::{Bounds, Class, Modifier, Range, Traits, declaration::entry};
+use crate::catalogue::modifier::{needs_space, warped};
+use crate::catalogue::{Bounds, Modifier, Range, Traits, declaration::entry};
 use crate::num::{Number, Vec3};
 
 entry! {
@@ -60,21 +61,10 @@ impl Modifier for Twist {
         if self.rate == 0.0 {
             return *child;
         }
-        Traits {
-            class: Class::Lipschitz.min(child.class),
-            is_convex: false,
-            is_symmetric: [false; 3],
-            ..*child
-        }
+        warped(child)
     }
 
     fn fit(&mut self, child: &Traits, _: &dyn Fn(f64) -> Bounds) -> Result<(), (String, String)> {
-        if !child.is_planar {
-            return Ok(());
-        }
-        Err((
-            "a profile has no height to twist along".into(),
-            "extrude it first".into(),
-        ))
+        needs_space(child, "a profile has no height to twist along")
     }
 }

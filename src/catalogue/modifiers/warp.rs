@@ -1,6 +1,7 @@
 //! Warping by noise.
 
-use crate::catalogue::{Bounds, Class, Modifier, Range, Traits, declaration::entry};
+use crate::catalogue::modifier::{needs_space, warped};
+use crate::catalogue::{Bounds, Modifier, Range, Traits, declaration::entry};
 use crate::num::{Lattice, Number, Vec3};
 
 entry! {
@@ -75,21 +76,10 @@ impl Modifier for Warp {
         if self.amount == 0.0 {
             return *child;
         }
-        Traits {
-            class: Class::Lipschitz.min(child.class),
-            is_convex: false,
-            is_symmetric: [false; 3],
-            ..*child
-        }
+        warped(child)
     }
 
     fn fit(&mut self, child: &Traits, _: &dyn Fn(f64) -> Bounds) -> Result<(), (String, String)> {
-        if !child.is_planar {
-            return Ok(());
-        }
-        Err((
-            "a profile is not warped in space".into(),
-            "extrude it first".into(),
-        ))
+        needs_space(child, "a profile is not warped in space")
     }
 }

@@ -1,6 +1,6 @@
 //! The gyroid.
 
-use crate::catalogue::periodic::{fits, frequency};
+use crate::catalogue::periodic::{fits, frequency, wall};
 use crate::catalogue::{Bounds, Class, Primitive, Range, Traits, declaration::entry};
 use crate::num::{Number, Vec3};
 
@@ -26,10 +26,9 @@ entry! {
 impl Primitive for Gyroid {
     #[inline(always)]
     fn distance<N: Number>(&self, p: &Vec3<N>) -> N {
-        let k = frequency(self.cell);
-        let q = *p * N::splat(k);
+        let q = *p * N::splat(frequency(self.cell));
         let wave = q.x.sin() * q.y.cos() + q.y.sin() * q.z.cos() + q.z.sin() * q.x.cos();
-        wave.abs() * N::splat(1.0 / (k * STEEPEST)) - N::splat(0.5 * self.thickness)
+        wall(wave, STEEPEST, self.cell, self.thickness)
     }
 
     fn sublevel(&self, _: f64) -> Bounds {

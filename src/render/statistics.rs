@@ -83,6 +83,12 @@ pub struct Steps {
 pub struct Milliseconds {
     /// Finding surfaces, by rays of all kinds.
     pub trace: f64,
+    /// Of it, by rays from the camera.
+    pub trace_primary: f64,
+    /// Of it, by rays to lights.
+    pub trace_shadow: f64,
+    /// Of it, by mirrored and refracted rays.
+    pub trace_secondary: f64,
     /// Everything else in the tiles: camera, materials, light.
     pub shade: f64,
     /// From the first tile to the last, as a clock shows it.
@@ -192,8 +198,11 @@ impl Tally {
             steps: self.steps.summary(),
             evaluations: c.evaluations,
             milliseconds: Milliseconds {
-                trace: milliseconds(c.tracing),
-                shade: milliseconds(self.busy.saturating_sub(c.tracing)),
+                trace: milliseconds(c.tracing.total()),
+                trace_primary: milliseconds(c.tracing.primary),
+                trace_shadow: milliseconds(c.tracing.shadow),
+                trace_secondary: milliseconds(c.tracing.secondary),
+                shade: milliseconds(self.busy.saturating_sub(c.tracing.total())),
                 wall: milliseconds(layout.wall),
             },
         }

@@ -29,15 +29,45 @@ pub struct Census {
     /// Evaluations of fields, by all rays.
     pub evaluations: u64,
     /// The time inside of the tracer, as a clock shows it.
-    pub tracing: Duration,
+    pub tracing: Tracing,
+}
+
+/// The time inside of the tracer, by the kind of rays.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tracing {
+    /// For rays from the camera.
+    pub primary: Duration,
+    /// For rays to lights.
+    pub shadow: Duration,
+    /// For mirrored and refracted rays.
+    pub secondary: Duration,
+}
+
+impl Tracing {
+    /// The time for rays of all kinds.
+    pub fn total(&self) -> Duration {
+        self.primary + self.shadow + self.secondary
+    }
+}
+
+impl AddAssign for Tracing {
+    fn add_assign(&mut self, other: Self) {
+        self.primary += other.primary;
+        self.shadow += other.shadow;
+        self.secondary += other.secondary;
+    }
 }
 
 impl Census {
-    /// What `trace` gives, with the time that it took added to [`Census::tracing`].
-    pub fn timed<T>(&mut self, trace: impl FnOnce() -> T) -> T {
+    /// What `trace` gives, with the time that it took added to a kind of [`Census::tracing`].
+    pub fn timed<T>(
+        &mut self,
+        kind: fn(&mut Tracing) -> &mut Duration,
+        trace: impl FnOnce() -> T,
+    ) -> T {
         let start = Instant::now();
         let result = trace();
-        self.tracing += start.elapsed();
+        *kind(&mut self.tracing) += start.elapsed();
         result
     }
 }

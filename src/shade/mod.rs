@@ -18,7 +18,7 @@ mod surfaces;
 mod wave;
 mod whitted;
 
-pub use census::Census;
+pub use census::{Census, Tracing};
 pub use features::Features;
 pub use fresnel::reflected_share;
 pub use reflect::reflected;

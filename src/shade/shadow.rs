@@ -63,7 +63,7 @@ fn stop<S: Surfaces + ?Sized>(
     census: &mut Census,
 ) {
     census.shadow += shadows.rays.len() as u64;
-    let occlusions = census.timed(|| surfaces.occluded(&shadows.rays));
+    let occlusions = census.timed(|t| &mut t.shadow, || surfaces.occluded(&shadows.rays));
     for (passage, occlusion) in passages.iter_mut().zip(occlusions) {
         census.evaluations += u64::from(occlusion.evaluations);
         match occlusion.verdict {
@@ -121,7 +121,10 @@ fn step<S: Surfaces + ?Sized>(
     census: &mut Census,
 ) -> Walkers {
     census.shadow += walkers.rays.len() as u64;
-    let outcomes = census.timed(|| surfaces.nearest(&walkers.rays, Visibility::Casting));
+    let outcomes = census.timed(
+        |t| &mut t.shadow,
+        || surfaces.nearest(&walkers.rays, Visibility::Casting),
+    );
     let mut further = Walkers::default();
     for (i, hit) in outcomes.iter().enumerate() {
         let (ray, media, index) = (&walkers.rays[i], &walkers.media[i], walkers.indices[i]);

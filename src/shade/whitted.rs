@@ -83,7 +83,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
 
     /// What the camera rays hit.
     pub fn first_hits(&self, rays: &[Ray], census: &mut Census) -> Vec<Outcome> {
-        let outcomes = census.timed(|| self.nearest(rays));
+        let outcomes = census.timed(|t| &mut t.primary, || self.nearest(rays));
         census.primary += rays.len() as u64;
         for outcome in &outcomes {
             census.evaluations += u64::from(outcome.evaluations);
@@ -113,7 +113,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         };
         let mut waiting = self.shade(Wave::from_camera(rays), outcomes, &mut light, census);
         while let Some(wave) = waiting.pop() {
-            let outcomes = census.timed(|| self.nearest(&wave.rays));
+            let outcomes = census.timed(|t| &mut t.secondary, || self.nearest(&wave.rays));
             for outcome in &outcomes {
                 census.evaluations += u64::from(outcome.evaluations);
                 census.unknown_secondary += u64::from(outcome.verdict == Verdict::Unknown);

@@ -718,6 +718,7 @@ fn help_has_examples_and_exit_codes() {
         "render",
         "check",
         "new",
+        "bench",
         "explain",
         "eval",
         "trace",

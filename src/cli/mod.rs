@@ -1,6 +1,9 @@
 //! Floor 8: the command line. A file for each subcommand; what they share lies in files of its own.
 
+mod bench;
+mod bench_report;
 mod check;
+mod columns;
 mod completions;
 mod console;
 mod eval;
@@ -55,6 +58,7 @@ enum Command {
     Render(render::Arguments),
     Check(check::Arguments),
     New(new::Arguments),
+    Bench(bench::Arguments),
     Explain(explain::Arguments),
     Eval(eval::Arguments),
     Trace(trace::Arguments),
@@ -76,6 +80,7 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::Render(arguments) => render::run(arguments),
         Command::Check(arguments) => check::run(arguments),
         Command::New(arguments) => new::run(arguments),
+        Command::Bench(arguments) => bench::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
         Command::Eval(arguments) => eval::run(arguments),
         Command::Trace(arguments) => trace::run(arguments),

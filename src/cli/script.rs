@@ -79,6 +79,14 @@ impl Scripts {
         worst.map_or(Ok(()), Err)
     }
 
+    /// One of them anew, without a word about what [`Scripts::each`] has said of it.
+    ///
+    /// # Errors
+    /// If it can't be read any more, or is wrong by now.
+    pub fn again(&self, path: &Path) -> Result<Loaded, Failure> {
+        read(path, &self.definitions)
+    }
+
     /// How many there are.
     pub fn len(&self) -> usize {
         self.paths.len()
@@ -86,12 +94,15 @@ impl Scripts {
 }
 
 fn load(path: &Path, definitions: &Definitions) -> Result<Loaded, Failure> {
+    let loaded = read(path, definitions)?;
+    say(&loaded.warnings.render(speaks_color()));
+    Ok(loaded)
+}
+
+fn read(path: &Path, definitions: &Definitions) -> Result<Loaded, Failure> {
     let loaded = lang::load(path, &definitions.definitions, &SceneTracer::default());
     match loaded {
-        Ok(loaded) => {
-            say(&loaded.warnings.render(speaks_color()));
-            Ok(loaded)
-        }
+        Ok(loaded) => Ok(loaded),
         Err(LoadError::Io { path, error }) => {
             Err(Failure::reading(&format!("`{}`", path.display()), &error))
         }
@@ -130,7 +141,7 @@ fn faults(shown: &[Arc<Node>], settings: &Settings, fault: &Fault) -> Vec<String
 }
 
 /// The fault in the form of the reports on scripts.
-fn described(fault: &Fault, node: Option<&Arc<Node>>) -> String {
+pub fn described(fault: &Fault, node: Option<&Arc<Node>>) -> String {
     let mut text = fault.message.clone();
     if let Some(place) = node.and_then(|node| node.place()) {
         text.push_str(&format!("\n  --> {}:{}", place.file, place.line));

@@ -93,7 +93,7 @@ pub fn warning(statistics: &Statistics) -> Option<String> {
 }
 
 /// The number with blanks between groups of three digits.
-fn grouped(n: u64) -> String {
+pub fn grouped(n: u64) -> String {
     let digits = n.to_string();
     let first = digits.len() % 3;
     let mut text = digits[..first].to_string();

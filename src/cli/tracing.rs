@@ -28,7 +28,8 @@ impl Tracing {
     }
 }
 
-fn method() -> impl TypedValueParser<Value = Method> {
+/// The name of a method.
+pub fn method() -> impl TypedValueParser<Value = Method> {
     PossibleValuesParser::new(Method::ALL.map(|(name, _)| name))
         .map(|name| Method::from_name(&name).expect("the parser takes only names of methods"))
 }

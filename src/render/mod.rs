@@ -3,7 +3,9 @@
 mod channel;
 mod film;
 mod job;
+mod rounds;
 mod sampling;
+mod spread;
 mod statistics;
 mod tile;
 mod view;
@@ -11,5 +13,7 @@ mod view;
 pub use channel::Channel;
 pub use film::{Film, Plane};
 pub use job::{Progress, RenderOptions, Rendered, render};
+pub use rounds::{Case, Run, rounds};
+pub use spread::Spread;
 pub use statistics::{Milliseconds, Rays, Statistics, Steps, Verdicts};
 pub use view::View;

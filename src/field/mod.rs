@@ -2,10 +2,12 @@
 
 mod compile;
 mod gradient;
+mod packets;
 mod paint;
 mod processor;
 
 pub use compile::{Closure, compile, compile_convex, compile_wide};
 pub use gradient::normal;
+pub use packets::{Packet, Packets};
 pub use paint::{Share, shares};
 pub use processor::Level;

@@ -30,6 +30,9 @@ macro_rules! each {
 }
 
 impl<T: Float, const W: usize> Lanes<T, W> {
+    /// How many lanes there are.
+    pub const WIDTH: usize = W;
+
     /// The lanes whose lane `i` is `f(i)`.
     #[inline(always)]
     pub fn from_fn(f: impl Fn(usize) -> T) -> Self {

@@ -5,13 +5,43 @@
 pub enum Method {
     /// Spheres, planes and triangles analytically, convex shapes by their slope, the rest by certified sphere tracing.
     Auto,
+    /// Certified sphere tracing everywhere: hits are changes of sign.
+    Certified,
+    /// Convex shapes by tangents, the rest by certified sphere tracing; no closed forms.
+    Convex,
     /// Hart's sphere tracing everywhere: t += |f| / lambda until |f| < epsilon or t > D.
     Sphere,
+    /// Over-relaxed sphere tracing, Keinert et al. 2014.
+    Relaxed,
+    /// Automatic step size relaxation, Ban and Valasek 2023.
+    AutoRelaxed,
+    /// Enhanced steps along the estimated slope, Balint and Valasek 2018.
+    Enhanced,
+    /// Segment tracing by local constants, Galin et al. 2020.
+    Segment,
+    /// Two-sided Lipschitz bisection, as POV-Ray's isosurfaces.
+    Bisect,
+    /// Interval analysis on the ray, Mitchell 1990.
+    Interval,
+    /// Interval bisection to the end, unpruned: the judge of the others.
+    Reference,
 }
 
 impl Method {
     /// All methods, by their names in scripts.
-    pub const ALL: [(&'static str, Self); 2] = [("auto", Self::Auto), ("sphere", Self::Sphere)];
+    pub const ALL: [(&'static str, Self); 11] = [
+        ("auto", Self::Auto),
+        ("certified", Self::Certified),
+        ("convex", Self::Convex),
+        ("sphere", Self::Sphere),
+        ("relaxed", Self::Relaxed),
+        ("auto-relaxed", Self::AutoRelaxed),
+        ("enhanced", Self::Enhanced),
+        ("segment", Self::Segment),
+        ("bisect", Self::Bisect),
+        ("interval", Self::Interval),
+        ("reference", Self::Reference),
+    ];
 
     /// The method that scripts call `name`.
     pub fn from_name(name: &str) -> Option<Self> {

@@ -13,6 +13,7 @@ mod outcome;
 mod part;
 mod ray;
 mod scene_tracer;
+mod survey;
 mod world;
 
 pub use outcome::{Occlusion, Outcome, Verdict};

@@ -1,10 +1,11 @@
 //! The parts of a world: what a hard union at the root falls apart into.
 
 use super::analytic::{Ball, Facet, HalfSpace};
+use super::method::{Demands, Reach};
 use crate::catalogue::Modifier;
 use crate::catalogue::{AnyPrimitive, Bounds, Combination, Operation, with_modifier};
 use crate::field::{Closure, Level, compile, compile_convex, compile_wide};
-use crate::num::{Dual, F64x32};
+use crate::num::{Dual, F64x32, Interval};
 use crate::scene::{Fault, FieldShape, Graph, Material, Node, Parts, Shadow, Shape};
 use glam::DVec3;
 use std::sync::Arc;
@@ -38,6 +39,8 @@ impl PartKind {
 pub struct Marched {
     /// Where the constant holds, and outside of which nothing is: rays are clipped to it.
     pub region: Bounds,
+    /// How far from the origin of coordinates anything is known of the solid.
+    pub size: f64,
     /// The Lipschitz constant on the region.
     pub lipschitz: f64,
     /// Whether the field is never negative, so that a hit can't be told by a change of sign.
@@ -48,6 +51,8 @@ pub struct Marched {
     pub single: Closure<f64>,
     /// The field and its derivative along the ray, where the field is convex.
     pub slope: Option<Slope>,
+    /// The ranges of the field and of its derivative along the ray, for methods that ask for them.
+    pub ranges: Option<Closure<Dual<Interval, 1>>>,
     /// The field and its gradient.
     pub gradient: Closure<Dual<f64, 3>>,
 }
@@ -75,15 +80,19 @@ pub struct Part {
 }
 
 impl Part {
-    /// The part of a shape.
+    /// The part of a shape, with what a method demands of it.
     ///
     /// # Errors
     /// If the shape has no finite Lipschitz constant.
-    pub fn new(node: Arc<Node>, is_auto: bool, level: Level) -> Result<Self, Fault> {
-        let analytic = if is_auto { entry(&node) } else { None };
+    pub fn new(node: Arc<Node>, demands: Demands, level: Level) -> Result<Self, Fault> {
+        let analytic = if demands.closed_forms {
+            entry(&node)
+        } else {
+            None
+        };
         let kind = match analytic {
             Some(kind) => kind,
-            None => PartKind::Marched(Box::new(Marched::new(&node, is_auto, level)?)),
+            None => PartKind::Marched(Box::new(Marched::new(&node, demands, level)?)),
         };
         let bounds = match &kind {
             PartKind::Ball(ball) => ball.bounds(),
@@ -112,32 +121,46 @@ fn shadow_of(material: &Option<Arc<Material>>) -> Shadow {
 }
 
 impl Marched {
-    /// The field of `node`. Plain sphere tracing (not `is_auto`) walks from the ray's origin, as published, wherever
-    /// the constant holds in all of space; other walks are clipped to the bounds.
-    fn new(node: &Node, is_auto: bool, level: Level) -> Result<Self, Fault> {
-        let walks_everywhere = !is_auto && node.lipschitz_everywhere().is_finite();
-        let region = if walks_everywhere {
-            Bounds::EVERYWHERE
-        } else {
-            widened(node.bounds())
+    /// The field of `node`, with what a method demands of it.
+    fn new(node: &Node, demands: Demands, level: Level) -> Result<Self, Fault> {
+        let is_clipped = match demands.reach {
+            Reach::Bounds => true,
+            Reach::Constant => !node.lipschitz_everywhere().is_finite(),
+            Reach::Everywhere => false,
         };
-        let lipschitz = node.lipschitz_over(region);
+        let bounds = widened(node.bounds());
+        let region = if is_clipped {
+            bounds
+        } else {
+            Bounds::EVERYWHERE
+        };
+        // Who asks everywhere does without the constant; it still measures noise.
+        let lipschitz = match demands.reach {
+            Reach::Everywhere => node.lipschitz(),
+            _ => node.lipschitz_over(region),
+        };
         if !lipschitz.is_finite() {
             return Err(unbounded(node));
         }
-        let slope =
-            (is_auto && node.traits().is_convex && !node.traits().is_sheet && !node.has_graph())
-                .then(|| Slope {
-                    wide: compile_convex(node, level),
-                    single: compile_convex(node, Level::Baseline),
-                });
+        let size = match (region.is_finite(), demands.reach) {
+            (true, _) => region.radius(),
+            (false, Reach::Everywhere) => bounds.finite_size(),
+            (false, _) => region.finite_size(),
+        };
+        let is_convex = node.traits().is_convex && !node.traits().is_sheet && !node.has_graph();
+        let slope = (demands.slopes && is_convex).then(|| Slope {
+            wide: compile_convex(node, level),
+            single: compile_convex(node, Level::Baseline),
+        });
         Ok(Self {
             region,
+            size,
             lipschitz,
             is_sheet: node.traits().is_sheet,
             value: compile_wide(node, level),
             single: compile(node),
             slope,
+            ranges: demands.ranges.then(|| compile(node)),
             gradient: compile(node),
         })
     }

@@ -3,8 +3,12 @@
 use super::hierarchy::{Hierarchy, clip};
 use super::join::joined;
 use super::march::{Job, Walked, march};
-use super::method::{Certified, Convex, Ending, Segment, SphereTracing};
+use super::method::{
+    AutoRelaxed, Bisection, Certified, Convex, Demands, Ending, Enhanced, IntervalAnalysis,
+    Reference, Relaxed, Segment, SegmentTracing, SphereTracing,
+};
 use super::part::{Marched, Part, PartKind, flatten};
+use super::survey::survey;
 use super::{Occlusion, Outcome, Ray, Verdict};
 use crate::field::{Level, normal, shares};
 use crate::scene::{Fault, Material, Method, Node, Scene, Settings, Shadow};
@@ -97,10 +101,10 @@ impl World {
     /// As [`World::new`].
     pub fn of(shown: &[Arc<Node>], settings: &Settings) -> Result<Self, Fault> {
         let level = Level::best();
-        let is_auto = settings.method == Method::Auto;
+        let demands = Demands::of(settings.method);
         let parts = joined(shown.iter().flat_map(flatten).collect())
             .into_iter()
-            .map(|node| Part::new(node, is_auto, level))
+            .map(|node| Part::new(node, demands, level))
             .collect::<Result<Vec<_>, _>>()?;
         Ok(Self::of_parts(parts, *settings))
     }
@@ -307,9 +311,9 @@ impl World {
         let origin = ray.origin.abs().max_element();
         let is_endless = !part.region.is_finite();
         let reach = if is_endless {
-            self.horizon.max(part.region.finite_size())
+            self.horizon.max(part.size)
         } else {
-            part.region.radius()
+            part.size
         };
         // Room for the rounding of places along the ray.
         let slack = |t: f64| 32.0 * f64::EPSILON * (origin + t);
@@ -336,9 +340,20 @@ impl World {
             return Vec::new();
         };
         match self.settings.method {
+            Method::Auto | Method::Convex if marched.slope.is_some() => {
+                march::<Convex>(marched, rays, jobs)
+            }
+            Method::Auto | Method::Convex | Method::Certified => {
+                march::<Certified>(marched, rays, jobs)
+            }
             Method::Sphere => march::<SphereTracing>(marched, rays, jobs),
-            Method::Auto if marched.slope.is_some() => march::<Convex>(marched, rays, jobs),
-            Method::Auto => march::<Certified>(marched, rays, jobs),
+            Method::Relaxed => march::<Relaxed>(marched, rays, jobs),
+            Method::AutoRelaxed => march::<AutoRelaxed>(marched, rays, jobs),
+            Method::Enhanced => march::<Enhanced>(marched, rays, jobs),
+            Method::Segment => survey::<SegmentTracing>(marched, rays, jobs),
+            Method::Bisect => march::<Bisection>(marched, rays, jobs),
+            Method::Interval => survey::<IntervalAnalysis>(marched, rays, jobs),
+            Method::Reference => survey::<Reference>(marched, rays, jobs),
         }
     }
 

@@ -1,17 +1,38 @@
 //! Methods: how one ray walks through one field.
 //!
 //! A method is a machine: it names the distance at which it wants the field, is told the value (and, if it asks, the
-//! derivative along the ray), and either goes on or ends. The driver in `march.rs` feeds packets of machines.
+//! derivative along the ray), and either goes on or ends. The driver in `march.rs` feeds packets of machines. Some methods
+//! also ask for the ranges of the field and of its derivative over a piece of the ray; the driver in `survey.rs` feeds
+//! those, one ray at a time. To add a method: its file here, its name in `scene/settings.rs`, its demands below, and
+//! its line in `World::walk`.
 
+mod auto_relaxed;
+mod bisect;
 mod certified;
 mod convex;
+mod course;
+mod demands;
+mod enhanced;
+mod interval;
+mod reference;
+mod relaxed;
+mod segment;
 mod sphere;
 
+pub use auto_relaxed::AutoRelaxed;
+pub use bisect::Bisection;
 pub use certified::Certified;
 pub use convex::Convex;
+pub use demands::{Demands, Reach};
+pub use enhanced::Enhanced;
+pub use interval::IntervalAnalysis;
+pub use reference::Reference;
+pub use relaxed::Relaxed;
+pub use segment::SegmentTracing;
 pub use sphere::SphereTracing;
 
 use super::{Footprint, Verdict};
+use crate::num::Interval;
 
 /// What a ray walks along: from `start` to `end`, both along the ray.
 #[derive(Clone, Copy, Debug)]
@@ -98,4 +119,14 @@ pub trait Walk: Send {
 
     /// Takes the value there and, if wanted, the derivative along the ray; gives the end, if this is it.
     fn observe(&mut self, value: f64, slope: f64) -> Option<Ending>;
+
+    /// Where ranges are wanted instead: up to here, from [`Walk::t`] on. Only `survey.rs` asks; other drivers know values.
+    fn reach(&self) -> Option<f64> {
+        None
+    }
+
+    /// Takes the ranges of the field and of its derivative along the ray, rounded outwards; gives the end, if this is it.
+    fn survey(&mut self, _value: Interval, _slope: Interval) -> Option<Ending> {
+        None
+    }
 }

@@ -1,0 +1,59 @@
+//! The driver of methods that ask for ranges along a ray: one ray at a time.
+
+use super::Ray;
+use super::march::{Job, Walked};
+use super::method::Walk;
+use super::part::Marched;
+use crate::num::{Dual, Interval, Vec3};
+
+/// Walks all jobs through `part` by the method `W`.
+pub(super) fn survey<W: Walk>(part: &Marched, rays: &[Ray], jobs: &[Job]) -> Vec<Walked> {
+    jobs.iter()
+        .map(|job| walk::<W>(part, &rays[job.ray as usize], job))
+        .collect()
+}
+
+/// Walks one ray to its end.
+fn walk<W: Walk>(part: &Marched, ray: &Ray, job: &Job) -> Walked {
+    let mut walk = W::begin(job.segment);
+    let mut evaluations = 0;
+    loop {
+        evaluations += 1;
+        let ending = match walk.reach() {
+            Some(reach) => {
+                let (value, slope) = ranges(part, ray, walk.t(), reach);
+                walk.survey(value, slope)
+            }
+            None => {
+                let p = ray.at(walk.t());
+                walk.observe((part.single)(&Vec3::new(p.x, p.y, p.z)), 0.0)
+            }
+        };
+        if let Some(ending) = ending {
+            return Walked {
+                ray: job.ray,
+                ending,
+                evaluations,
+            };
+        }
+    }
+}
+
+/// The ranges of the field and of its derivative along the ray, from `from` to `to`: everything, where the part has none.
+fn ranges(part: &Marched, ray: &Ray, from: f64, to: f64) -> (Interval, Interval) {
+    let Some(ranges) = &part.ranges else {
+        return (Interval::ENTIRE, Interval::ENTIRE);
+    };
+    let t = Interval::new(from, to);
+    let along = |origin: f64, direction: f64| {
+        let rate = Interval::point(direction);
+        Dual::new(Interval::point(origin) + rate * t, [rate])
+    };
+    let (o, d) = (ray.origin, ray.direction);
+    let field = ranges(&Vec3::new(
+        along(o.x, d.x),
+        along(o.y, d.y),
+        along(o.z, d.z),
+    ));
+    (field.value, field.partial[0])
+}

@@ -1,8 +1,9 @@
 //! What `fieldstone bench` found, for people and for programs.
 
-use super::columns::{Row, aligned, short};
+use super::columns::{Row, aligned};
 use super::console::counted;
 use super::stats::grouped;
+use crate::output::short;
 use crate::render::{Case, Run, Spread, Statistics};
 use crate::scene::Settings;
 use serde_json::{Value, json};

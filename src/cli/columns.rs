@@ -33,18 +33,6 @@ pub fn aligned(rows: &[Row], words: usize) -> String {
     text
 }
 
-/// The number with about four digits, as people read it: no more places than say something.
-pub fn short(x: f64) -> String {
-    let places = match x.abs() {
-        a if a == 0.0 || a >= 1000.0 => 0,
-        a if a >= 100.0 => 1,
-        a if a >= 10.0 => 2,
-        a if a >= 1e-3 => 3,
-        _ => return format!("{x:.1e}"),
-    };
-    format!("{x:.places$}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -62,14 +50,5 @@ mod tests {
             "  method    ms\n  a       10.5\n  ü          7\n"
         );
         assert_eq!(aligned(&[], 1), "");
-    }
-
-    #[test]
-    fn numbers_have_about_four_digits() {
-        let numbers = [0.0, 1234.5, 123.45, 12.345, 1.2345, 0.0012, 1.5e-7].map(short);
-        assert_eq!(
-            numbers,
-            ["0", "1234", "123.5", "12.35", "1.234", "0.001", "1.5e-7"]
-        );
     }
 }

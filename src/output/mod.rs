@@ -6,6 +6,7 @@ mod picture;
 mod png;
 mod save;
 mod srgb;
+mod text;
 
 pub use colormap::{heat, hue};
 pub use file::{remove_temporaries, write};
@@ -13,3 +14,4 @@ pub use picture::{Picture, picture};
 pub use png::{Metadata, encode};
 pub use save::{SaveError, Saved, path_of, save};
 pub use srgb::{decode, encode as encode_srgb};
+pub use text::{markdown, short};

@@ -90,7 +90,7 @@ impl Film {
 }
 
 /// All that is known of one pixel.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Pixel {
     pub beauty: DVec3,
     pub color: DVec3,

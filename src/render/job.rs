@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// The stack of a thread: deep scenes recurse in their closures.
-const STACK_BYTES: usize = 16 << 20;
+pub(super) const STACK_BYTES: usize = 16 << 20;
 
 /// How far a rendering is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,9 @@
 //! Floor 6: camera to film: rays, tiles, threads, statistics.
 
 mod channel;
+mod errors;
 mod film;
+mod hits;
 mod job;
 mod rounds;
 mod sampling;
@@ -11,7 +13,9 @@ mod tile;
 mod view;
 
 pub use channel::Channel;
+pub use errors::{Errors, root_mean_square};
 pub use film::{Film, Plane};
+pub use hits::Hits;
 pub use job::{Progress, RenderOptions, Rendered, render};
 pub use rounds::{Case, Run, rounds};
 pub use spread::Spread;

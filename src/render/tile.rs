@@ -61,7 +61,7 @@ impl Tile {
             let rays: Vec<Ray> = self
                 .pixels
                 .iter()
-                .map(|&pixel| camera_ray(shared, pixel, sample))
+                .map(|&pixel| sample_ray(shared, pixel, sample))
                 .collect();
             self.expose(shared, &rays, &mut sums, &mut tally);
         }
@@ -101,12 +101,15 @@ impl Tile {
 }
 
 /// The ray of a sample of a pixel.
-fn camera_ray<S: Surfaces + ?Sized>(shared: &Shared<S>, pixel: [u32; 2], sample: u32) -> Ray {
+fn sample_ray<S: Surfaces + ?Sized>(shared: &Shared<S>, pixel: [u32; 2], sample: u32) -> Ray {
     let Settings { samples, seed, .. } = *shared.settings;
-    let [dx, dy] = sampling::place(pixel, sample, samples, seed);
-    shared
-        .view
-        .ray(f64::from(pixel[0]) + dx, f64::from(pixel[1]) + dy)
+    let aside = sampling::place(pixel, sample, samples, seed);
+    camera_ray(&shared.view, pixel, aside)
+}
+
+/// The ray through a place of a pixel, so far from its middle.
+pub(super) fn camera_ray(view: &View, pixel: [u32; 2], [dx, dy]: [f64; 2]) -> Ray {
+    view.ray(f64::from(pixel[0]) + dx, f64::from(pixel[1]) + dy)
 }
 
 /// The bits at even places, moved together: pairs, then fours, and so on.

@@ -1,0 +1,68 @@
+//! What the camera's rays hit, ray by ray, in full precision: for judging and for counting.
+
+use super::job::STACK_BYTES;
+use super::tile::{Tile, camera_ray};
+use super::{RenderOptions, View};
+use crate::scene::Scene;
+use crate::shade::{Census, Surfaces, Whitted};
+use crate::trace::{Outcome, Ray};
+use rayon::prelude::*;
+
+/// What the camera's rays hit.
+#[derive(Clone, Debug, Default)]
+pub struct Hits {
+    /// The rays: one through the middle of each pixel, tile by tile.
+    pub rays: Vec<Ray>,
+    /// What each of them found.
+    pub outcomes: Vec<Outcome>,
+    /// What it took.
+    pub census: Census,
+}
+
+impl Hits {
+    /// What the rays through the middles of the pixels of `scene` hit in `world`: tile by tile as a rendering traces them, on
+    /// that many threads, or 0 for one on each processor.
+    pub fn of<S: Surfaces + ?Sized>(scene: &Scene, world: &S, threads: usize) -> Self {
+        let settings = &scene.settings;
+        let view = View::new(&scene.camera, settings.size);
+        let whitted = Whitted::new(scene, world);
+        let tiles = Tile::all(settings.size, RenderOptions::default().tile);
+        let trace = |tile: &Tile| {
+            let ray = |pixel: &[u32; 2]| camera_ray(&view, *pixel, [0.0; 2]);
+            let rays: Vec<Ray> = tile.pixels.iter().map(ray).collect();
+            let mut census = Census::default();
+            let outcomes = whitted.first_hits(&rays, &mut census);
+            Self {
+                rays,
+                outcomes,
+                census,
+            }
+        };
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .stack_size(STACK_BYTES)
+            .build();
+        let parts: Vec<Self> = match pool {
+            Ok(pool) => pool.install(|| tiles.par_iter().map(trace).collect()),
+            Err(_) => tiles.iter().map(trace).collect(),
+        };
+        parts.into_iter().fold(Self::default(), Self::joined)
+    }
+
+    fn joined(mut self, other: Self) -> Self {
+        self.rays.extend(other.rays);
+        self.outcomes.extend(other.outcomes);
+        self.census += other.census;
+        self
+    }
+
+    /// Evaluations of fields a ray.
+    pub fn evaluations(&self) -> f64 {
+        self.census.evaluations as f64 / self.rays.len().max(1) as f64
+    }
+
+    /// The time inside of the tracer, in milliseconds.
+    pub fn milliseconds(&self) -> f64 {
+        self.census.tracing.total().as_secs_f64() * 1e3
+    }
+}

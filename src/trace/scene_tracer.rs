@@ -48,9 +48,17 @@ impl SceneTracer {
 
 /// The ray of a script or of the command line: its pixel is that of the default camera.
 fn script_ray(settings: &Settings, origin: [f64; 3], direction: [f64; 3]) -> Ray {
+    let direction = DVec3::from_array(direction);
+    // The square of a length that is tiny or huge is no number: such a direction is first divided by its largest part.
+    let squared = direction.length_squared();
+    let direction = if squared.is_normal() {
+        direction
+    } else {
+        direction / direction.abs().max_element()
+    };
     Ray {
         origin: DVec3::from_array(origin),
-        direction: DVec3::from_array(direction).normalize_or_zero(),
+        direction: direction.normalize_or_zero(),
         t_max: f64::INFINITY,
         footprint: Footprint {
             at_origin: 0.0,

@@ -128,8 +128,8 @@ impl Certified {
         if self.steps >= segment.max_steps {
             return self.end(Verdict::Unknown, now.t, f64::INFINITY);
         }
-        // A zero is a touch until the sign behind it is known; and so is what the ray starts on.
-        let is_start = now.t == 0.0 && now.value.abs() <= segment.noise(0.0);
+        // A zero is a touch until the sign behind it is known; and so is what the ray starts on, up to rounding.
+        let is_start = !self.has_departed && now.value.abs() <= segment.noise(now.t);
         let is_on_surface = now.value == 0.0 || is_start;
         self.phase = Phase::Marching(if is_on_surface { last } else { Some(now) });
         // A step longer than is known to be free must not jump over the end of the segment.

@@ -52,7 +52,10 @@ impl<'a> Machine<'a> {
         self.tick(1000 + size, at)?;
         let found = self.tracer.trace(&shown, &self.settings, origin, direction);
         match found {
-            Ok(record) => Ok(Value::Trace(Arc::new(record))),
+            Ok(record) => {
+                self.fates.count(&record);
+                Ok(Value::Trace(Arc::new(record)))
+            }
             Err(problem) => self.fail(Diagnostic::error(at, problem)),
         }
     }

@@ -29,9 +29,11 @@ pub(super) enum Intrinsic {
     Fbm,
     Gradient,
     Heightfield,
+    Hits,
     Len,
     Length,
     Marble,
+    Misses,
     Noise,
     Normalize,
     Paint,
@@ -48,7 +50,7 @@ pub(super) enum Intrinsic {
 
 impl Intrinsic {
     /// Every one with its name, its arguments (a `?` marks those that may be left out), and what it gives.
-    pub const ALL: [(&'static str, Self, &'static str, &'static str); 25] = [
+    pub const ALL: [(&'static str, Self, &'static str, &'static str); 27] = [
         (
             "at",
             Self::At,
@@ -100,6 +102,12 @@ impl Intrinsic {
             "a block of ground of `size` ([2, 2]) along x and z, from y = `base` up to the field's value at (x, 0, z)",
         ),
         (
+            "hits",
+            Self::Hits,
+            "trace, t, within?",
+            "whether a ray hit at the distance `t`, to within a tenth of a pixel (the tolerance) or the distance given",
+        ),
+        (
             "len",
             Self::Len,
             "list",
@@ -116,6 +124,12 @@ impl Intrinsic {
             Self::Marble,
             "a, b, size?, turbulence?",
             "a pattern of stone `a` with veins of `b`, `size` (1) apart and bent by `turbulence` (1)",
+        ),
+        (
+            "misses",
+            Self::Misses,
+            "trace",
+            "whether a ray certainly hit nothing",
         ),
         (
             "noise",

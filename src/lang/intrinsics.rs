@@ -56,6 +56,8 @@ impl<'a> Machine<'a> {
             (Intrinsic::Displace, Some(field)) => {
                 self.displace(&first.value, first.span, &field, at)
             }
+            (Intrinsic::Hits, Some(t)) => self.hits(&first, &t, third),
+            (Intrinsic::Misses, _) => self.misses(&first),
             (Intrinsic::Heightfield, size) => self.heightfield(&first, size, third, at),
             (Intrinsic::Len, _) => match &first.value {
                 Value::Text(text) => Ok(Value::Number(text.len() as f64)),

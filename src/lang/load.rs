@@ -123,9 +123,15 @@ impl Loaded {
             machine.globals.clone_from(&self.globals);
             machine.shown.clone_from(&self.scene.shown);
             machine.settings = self.scene.settings;
-            let results = self.test_blocks().map(|test| TestResult {
-                name: test.name.text.to_string(),
-                failures: Report::new(machine.test(test), self.program.sources.clone()),
+            let results = self.test_blocks().map(|test| {
+                let failures = Report::new(machine.test(test), self.program.sources.clone());
+                let fates = std::mem::take(&mut machine.fates);
+                TestResult {
+                    name: test.name.text.to_string(),
+                    failures,
+                    judgements: fates.judgements,
+                    steps: fates.steps,
+                }
             });
             results.collect()
         })

@@ -43,6 +43,8 @@ pub(super) struct Machine<'a> {
     /// Everything that is shown, for `trace`.
     pub shown: Vec<Arc<Node>>,
     pub settings: Settings,
+    /// How rays of the test that runs fared.
+    pub fates: super::judgement::Fates,
     /// The graphs of the fields that are being made, the innermost last.
     pub builders: Vec<GraphBuilder>,
     /// The calls that are open: where, and what is said of it.
@@ -70,6 +72,7 @@ impl<'a> Machine<'a> {
             effort: 0,
             shown: Vec::new(),
             settings: Settings::default(),
+            fates: super::judgement::Fates::default(),
             builders: Vec::new(),
             calls: Vec::new(),
             locals: Vec::new(),

@@ -20,6 +20,7 @@ mod fields;
 mod functions;
 mod hint;
 mod intrinsics;
+mod judgement;
 pub mod limits;
 mod literals;
 mod load;
@@ -44,6 +45,7 @@ mod trial;
 mod value;
 mod words;
 
+pub use judgement::Judgement;
 pub use load::{LoadError, Loaded, load, load_text};
 pub use report::{Diagnostic, Level, Report};
 pub use source::{Source, Sources, Span};

@@ -1,9 +1,11 @@
 //! `test` blocks: expectations are evaluated once the scene is there.
 
 use super::ast::*;
+use super::judgement::{Fates, Judgement};
 use super::machine::{Eval, Machine};
 use super::operators::equal;
 use super::report::{Diagnostic, Report};
+use super::source::Span;
 use super::value::Value;
 
 /// How a `test` block of a script went.
@@ -13,6 +15,10 @@ pub struct TestResult {
     pub name: String,
     /// What failed: expectations with both sides, or errors. Empty where the test passed.
     pub failures: Report,
+    /// How every ray fared of which the test says whether it hits or misses, and every expectation that speaks of none.
+    pub judgements: Vec<Judgement>,
+    /// The most steps that a ray of the test took.
+    pub steps: u32,
 }
 
 impl TestResult {
@@ -27,11 +33,16 @@ impl<'a> Machine<'a> {
     pub fn test(&mut self, test: &'a TestBlock) -> Vec<Diagnostic> {
         self.reset();
         self.diagnostics.clear();
+        self.fates = Fates::default();
         for step in &test.steps {
+            let before = self.fates.judgements.len();
             let outcome = match step {
                 TestStep::Let(_, value) => self.eval(value).map(|value| self.push_local(value)),
                 TestStep::Expect(expectation) => self.expect(expectation),
             };
+            if outcome.is_err() || matches!(step, TestStep::Expect(_)) {
+                self.fates.settle(before, outcome.is_ok());
+            }
             // Without a local the expectations after it mean nothing.
             if outcome.is_err() && matches!(step, TestStep::Let(..)) {
                 break;
@@ -44,6 +55,7 @@ impl<'a> Machine<'a> {
         let Some(compare) = comparison(expectation) else {
             return match self.eval(expectation)? {
                 Value::Bool(true) => Ok(()),
+                Value::List(list) => self.expect_all(&list.items, expectation.span),
                 Value::Bool(false) => {
                     let error = Diagnostic::error(expectation.span, "this is not so");
                     self.fail(error.label("this is false"))
@@ -73,6 +85,26 @@ impl<'a> Machine<'a> {
             }
             _ => error,
         })
+    }
+}
+
+impl Machine<'_> {
+    /// A list is expected to hold: each of its elements is true.
+    fn expect_all(&mut self, items: &[Value], at: Span) -> Eval<()> {
+        if items.is_empty() {
+            return self.fail(Diagnostic::error(at, "an empty list expects nothing"));
+        }
+        for (i, item) in items.iter().enumerate() {
+            match item {
+                Value::Bool(true) => {}
+                Value::Bool(false) => {
+                    let error = Diagnostic::error(at, "this is not so for every element");
+                    return self.fail(error.label(format!("element {i} is false")));
+                }
+                other => return self.no_condition(other, at),
+            }
+        }
+        Ok(())
     }
 }
 

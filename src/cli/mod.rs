@@ -10,6 +10,8 @@ mod eval;
 mod explain;
 mod failure;
 mod interrupt;
+mod limits;
+mod limits_matrix;
 mod new;
 mod outline;
 mod progress;
@@ -63,6 +65,7 @@ enum Command {
     Eval(eval::Arguments),
     Trace(trace::Arguments),
     Test(test::Arguments),
+    Limits(limits::Arguments),
     Reference(reference::Arguments),
     Completions(completions::Arguments),
 }
@@ -85,6 +88,7 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::Eval(arguments) => eval::run(arguments),
         Command::Trace(arguments) => trace::run(arguments),
         Command::Test(arguments) => test::run(arguments),
+        Command::Limits(arguments) => limits::run(arguments),
         Command::Reference(arguments) => reference::run(arguments),
         Command::Completions(arguments) => completions::run(arguments, Cli::command()),
     }

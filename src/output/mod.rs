@@ -1,5 +1,6 @@
 //! Floor 7: film to bytes.
 
+pub mod chart;
 mod colormap;
 mod file;
 mod picture;

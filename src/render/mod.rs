@@ -1,6 +1,7 @@
 //! Floor 6: camera to film: rays, tiles, threads, statistics.
 
 mod channel;
+mod effort;
 mod errors;
 mod film;
 mod hits;
@@ -9,10 +10,12 @@ mod rounds;
 mod sampling;
 mod spread;
 mod statistics;
+mod sweep;
 mod tile;
 mod view;
 
 pub use channel::Channel;
+pub use effort::{Cause, Share, effort};
 pub use errors::{Errors, root_mean_square};
 pub use film::{Film, Plane};
 pub use hits::Hits;
@@ -20,4 +23,5 @@ pub use job::{Progress, RenderOptions, Rendered, render};
 pub use rounds::{Case, Run, rounds};
 pub use spread::Spread;
 pub use statistics::{Milliseconds, Rays, Statistics, Steps, Verdicts};
+pub use sweep::{Judged, Setting, Truth, pareto, sweep};
 pub use view::View;

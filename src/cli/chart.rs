@@ -1,0 +1,192 @@
+//! `fieldstone chart`: speed against accuracy.
+
+use super::chart_panels::{Measured, Metric, Work, chart};
+use super::chart_tables::{csv, json, markdown};
+use super::console::{answer, say_line};
+use super::failure::Failure;
+use super::script::{Scripts, compile, described};
+use super::{tracing, value};
+use crate::output::{self, Metadata};
+use crate::render::{Setting, Truth, sweep};
+use crate::scene::{Method, Scene, Settings};
+use clap::Args;
+use std::io;
+use std::path::{Path, PathBuf};
+
+const AFTER_HELP: &str = "\
+Every method traces the camera's rays of each scene at each tolerance; its hits are compared with those of `--method \
+reference`, and its times are the smallest of interleaved rounds on one thread, with the spread. The files chart.svg, \
+chart.png, chart.csv, chart.json and chart.md go to the folder of -o; the table is printed, too.
+
+A point is a method at a tolerance. Down and left is good: few evaluations, small errors. The band joins the points that \
+no other point beats on both axes. Grey points missed surfaces: they are fast because they are wrong. Crossed ones have rays \
+that ended without an answer. Errors:
+
+  depth      the error of depth that 99 % of the hits don't exceed, in widths of a pixel
+  depth-max  the largest error of depth, in widths of a pixel
+  wrong      false hits, false misses and unknown rays, of a million
+  normals    the angle between normals that 99 % of the hits don't exceed, in degrees
+  image      the root mean square of the difference of the pictures' light (renders them as well)
+
+Examples:
+  fieldstone chart scene.sdf
+  fieldstone chart a.sdf b.sdf --methods auto,sphere,relaxed --tolerances 1,0.1,0.01 -o charts
+  fieldstone chart scene.sdf --errors depth --work evaluations --size 320x180";
+
+/// Chart the speed of methods against their accuracy
+#[derive(Args, Debug)]
+#[command(after_help = AFTER_HELP)]
+pub struct Arguments {
+    #[command(flatten)]
+    scripts: Scripts,
+    /// The methods [default: all but the reference]
+    #[arg(long, value_name = "NAME[,NAME]", value_delimiter = ',', value_parser = tracing::method())]
+    methods: Vec<Method>,
+    /// The tolerances, in pixels; the scene's own joins them
+    #[arg(long, value_name = "PX[,PX]", value_delimiter = ',', default_value = "1,0.1,0.01,0.001,0.0001", value_parser = value::positive, allow_negative_numbers = true)]
+    tolerances: Vec<f64>,
+    /// Width and height in pixels [default: 160 wide, in the shape of the scene's picture]
+    #[arg(long, value_name = "WxH", value_parser = value::size, allow_hyphen_values = true)]
+    size: Option<[u32; 2]>,
+    /// How often everything is timed; what takes longer than 1.5 seconds is timed once
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000), allow_negative_numbers = true)]
+    rounds: u16,
+    /// The errors that are drawn, a panel each
+    #[arg(
+        long,
+        value_name = "NAME[,NAME]",
+        value_delimiter = ',',
+        default_value = "depth,wrong"
+    )]
+    errors: Vec<Metric>,
+    /// What they are drawn against
+    #[arg(
+        long,
+        value_name = "NAME[,NAME]",
+        value_delimiter = ',',
+        default_value = "evaluations,milliseconds"
+    )]
+    work: Vec<Work>,
+    /// The folder of the files, which must exist [default: the current one]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Say nothing but warnings and errors
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// How wide the pictures are if nothing else is said, in pixels.
+const WIDTH: u32 = 160;
+
+/// Measures the scenes and writes the charts.
+///
+/// # Errors
+/// If a script is wrong, shows what can't be traced, or a file can't be written.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let folder = arguments.output.clone().unwrap_or_default();
+    if !folder.as_os_str().is_empty() && !folder.is_dir() {
+        return Err(Failure::Other(format!(
+            "there is no folder `{}`",
+            folder.display()
+        )));
+    }
+    let mut measured = Vec::new();
+    let result = arguments.scripts.each(|path, loaded| {
+        measured.push(measure(arguments, path, loaded.scene)?);
+        Ok(())
+    });
+    result?;
+    write_all(arguments, &folder, &measured)?;
+    answer(&markdown(&measured))
+}
+
+/// The size of the pictures of a scene.
+fn size(arguments: &Arguments, settings: &Settings) -> [u32; 2] {
+    let [width, height] = settings.size;
+    let scaled = (f64::from(WIDTH) * f64::from(height) / f64::from(width)).round() as u32;
+    arguments
+        .size
+        .unwrap_or([WIDTH, scaled.clamp(1, 4 * WIDTH)])
+}
+
+/// Every method with every tolerance, and the scene's own setting.
+fn settings(arguments: &Arguments, settings: &Settings) -> Vec<Setting> {
+    let all = || Method::ALL.iter().map(|(_, method)| *method);
+    let methods: Vec<Method> = match arguments.methods.is_empty() {
+        true => all().filter(|m| *m != Method::Reference).collect(),
+        false => all().filter(|m| arguments.methods.contains(m)).collect(),
+    };
+    let mut tolerances = arguments.tolerances.clone();
+    tolerances.sort_by(|a, b| b.total_cmp(a));
+    tolerances.dedup();
+    let own = settings.tolerance;
+    let mut list = Vec::new();
+    for method in methods {
+        let extra = (method == settings.method && !tolerances.contains(&own)).then_some(own);
+        let mut of_method: Vec<f64> = tolerances.iter().copied().chain(extra).collect();
+        of_method.sort_by(|a, b| b.total_cmp(a));
+        list.extend(
+            of_method
+                .into_iter()
+                .map(|tolerance| Setting { method, tolerance }),
+        );
+    }
+    list
+}
+
+fn measure(arguments: &Arguments, path: &Path, mut scene: Scene) -> Result<Measured, Failure> {
+    scene.settings.size = size(arguments, &scene.settings);
+    // What can't be traced is said here, shape by shape.
+    compile(&scene)?;
+    let settings = settings(arguments, &scene.settings);
+    if !arguments.quiet {
+        let [width, height] = scene.settings.size;
+        say_line(&format!(
+            "{}: {} settings at {width} x {height}",
+            path.display(),
+            settings.len()
+        ));
+    }
+    let fault = |fault| Failure::Other(described(&fault, None));
+    let wants_picture = arguments.errors.contains(&Metric::Image);
+    let truth = Truth::of(&scene, wants_picture).map_err(fault)?;
+    let judged = sweep(&scene, &settings, usize::from(arguments.rounds), &truth).map_err(fault)?;
+    Ok(Measured {
+        script: path.to_path_buf(),
+        settings: scene.settings,
+        judged,
+    })
+}
+
+/// Writes the chart in all its forms.
+fn write_all(arguments: &Arguments, folder: &Path, measured: &[Measured]) -> Result<(), Failure> {
+    let chart = chart(measured, &arguments.errors, &arguments.work);
+    let broken = Failure::Other;
+    let image = output::chart::pixels(&chart).map_err(broken)?;
+    let scripts: Vec<String> = measured.iter().map(Measured::name).collect();
+    let metadata = Metadata {
+        source: scripts.join(" "),
+        ..Metadata::default()
+    };
+    let picture =
+        output::encode(&image, &metadata).map_err(|error| Failure::Other(error.to_string()))?;
+    let files = [
+        (
+            "chart.svg",
+            output::chart::svg(&chart).map_err(broken)?.into_bytes(),
+        ),
+        ("chart.png", picture),
+        ("chart.csv", csv(measured).into_bytes()),
+        ("chart.json", json(measured).into_bytes()),
+        ("chart.md", markdown(measured).into_bytes()),
+    ];
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        let failed = |error: io::Error| Failure::writing(&format!("`{}`", path.display()), &error);
+        output::write(&path, &bytes).map_err(failed)?;
+        if !arguments.quiet {
+            say_line(&format!("wrote {}", path.display()));
+        }
+    }
+    Ok(())
+}

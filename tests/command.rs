@@ -719,6 +719,8 @@ fn help_has_examples_and_exit_codes() {
         "check",
         "new",
         "bench",
+        "chart",
+        "steps",
         "explain",
         "eval",
         "trace",

@@ -173,3 +173,215 @@ fn times_of_tracing_are_told_by_kind_of_ray() {
     assert!(parts.iter().all(|t| *t > 0.0), "{parts:?}");
     assert!((parts.iter().sum::<f64>() - time("trace")).abs() < 1e-6 * time("trace").max(1.0));
 }
+
+#[test]
+fn chart_writes_all_its_forms() {
+    let folder = Folder::new("chart");
+    let arguments = [
+        "chart",
+        "scene.sdf",
+        "--size",
+        "24x18",
+        "--methods",
+        "sphere,auto",
+        "--tolerances",
+        "0.01,1",
+        "--rounds",
+        "1",
+        "-q",
+    ];
+    let [table, said] = folder.run(&arguments, 0);
+    assert_eq!(said, "");
+    assert!(table.contains("### scene, 24 x 18"), "{table}");
+    assert!(table.contains("| **auto** | 0.100 |"), "{table}");
+    let read = |name: &str| std::fs::read(folder.0.join(name)).unwrap();
+    assert_eq!(read("chart.md"), table.as_bytes());
+    assert!(read("chart.png").starts_with(b"\x89PNG"));
+    let svg = String::from_utf8(read("chart.svg")).unwrap();
+    for words in [
+        "Speed against accuracy",
+        "sphere",
+        "evaluations a ray",
+        "scene, 24",
+    ] {
+        assert!(svg.contains(words), "{words}");
+    }
+    let chart: Value = serde_json::from_slice(&read("chart.json")).unwrap();
+    let points = chart["scenes"][0]["points"].as_array().unwrap();
+    // The default's tolerance of 0.1 joins those of its method.
+    let knobs: Vec<_> = points
+        .iter()
+        .map(|p| {
+            (
+                p["method"].as_str().unwrap(),
+                p["tolerance"].as_f64().unwrap(),
+            )
+        })
+        .collect();
+    assert_eq!(
+        knobs,
+        [
+            ("auto", 1.0),
+            ("auto", 0.1),
+            ("auto", 0.01),
+            ("sphere", 1.0),
+            ("sphere", 0.01)
+        ]
+    );
+    let csv = String::from_utf8(read("chart.csv")).unwrap();
+    assert_eq!(csv.lines().count(), 1 + points.len());
+    assert!(
+        csv.starts_with("scene,width,height,method,tolerance,is_default,"),
+        "{csv}"
+    );
+}
+
+/// Hart's hits are near a surface, not on it: the finer the tolerance, the smaller the error and the more the evaluations.
+#[test]
+fn chart_finds_what_theory_says_of_sphere_tracing() {
+    let folder = Folder::new("theory");
+    let arguments = [
+        "chart",
+        "scene.sdf",
+        "--size",
+        "48x36",
+        "--methods",
+        "auto,sphere",
+        "--tolerances",
+        "1,0.01",
+        "--rounds",
+        "1",
+        "-q",
+    ];
+    folder.run(&arguments, 0);
+    let chart = std::fs::read(folder.0.join("chart.json")).unwrap();
+    let chart: Value = serde_json::from_slice(&chart).unwrap();
+    let points = chart["scenes"][0]["points"].as_array().unwrap();
+    let of = |method: &str, tolerance: f64| {
+        points
+            .iter()
+            .find(|p| p["method"] == method && p["tolerance"].as_f64() == Some(tolerance))
+            .unwrap()
+    };
+    let error = |p: &Value| p["errors"]["depth_p99"].as_f64().unwrap();
+    let evaluations = |p: &Value| p["evaluations"].as_f64().unwrap();
+    let (coarse, fine, auto) = (of("sphere", 1.0), of("sphere", 0.01), of("auto", 1.0));
+    assert!(error(coarse) > 10.0 * error(fine), "{coarse} {fine}");
+    assert!(evaluations(coarse) < evaluations(fine));
+    assert!(error(auto) < 1e-6 && error(fine) > 1e-4);
+    for count in ["false_hits", "false_misses", "unknown"] {
+        assert_eq!(auto["errors"][count], 0, "{count}");
+    }
+    assert!(coarse["errors"]["false_hits"].as_u64().unwrap() > 0);
+    assert_eq!(auto["errors"]["rays"], 48 * 36);
+}
+
+#[test]
+fn chart_refuses_what_makes_no_sense() {
+    let folder = Folder::new("nonsense");
+    let [_, err] = folder.run(&["chart", "scene.sdf", "-o", "missing"], 1);
+    assert!(err.contains("`missing`"), "{err}");
+    folder.run(&["chart", "scene.sdf", "--tolerances", "0"], 2);
+    folder.run(&["chart", "scene.sdf", "--errors", "beauty"], 2);
+    assert_eq!(std::fs::read_dir(&folder.0).unwrap().count(), 1);
+}
+
+/// The counts of each method add up, to the last step.
+#[test]
+fn steps_are_put_down_to_lines_without_a_rest() {
+    let folder = Folder::new("steps");
+    let answer = folder.json(&["steps", "scene.sdf", "--methods", "auto,sphere", "--json"]);
+    for method in answer["methods"].as_array().unwrap() {
+        let name = method["method"].as_str().unwrap();
+        folder.run(
+            &[
+                "render",
+                "scene.sdf",
+                "-q",
+                "--method",
+                name,
+                "--stats",
+                "s.json",
+            ],
+            0,
+        );
+        let stats = std::fs::read_to_string(folder.0.join("s.json")).unwrap();
+        let stats: Value = serde_json::from_str(&stats).unwrap();
+        for key in ["mean", "p99", "max", "histogram"] {
+            assert_eq!(method[key], stats["steps"][key], "{name}: {key}");
+        }
+        let histogram = method["histogram"].as_array().unwrap();
+        let all: u64 = histogram
+            .iter()
+            .map(|bin| bin[0].as_u64().unwrap() * bin[1].as_u64().unwrap())
+            .sum();
+        let causes = method["causes"].as_array().unwrap();
+        let sum: u64 = causes
+            .iter()
+            .map(|cause| cause["steps"].as_u64().unwrap())
+            .sum();
+        assert_eq!(
+            (sum, method["total"].as_u64().unwrap()),
+            (all, all),
+            "{name}"
+        );
+        assert!(all > 0 && !causes.is_empty());
+    }
+    // The box is on line 4, the floor on line 6.
+    let lines: Vec<u64> = answer["methods"][1]["causes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|c| c["line"].as_u64().unwrap())
+        .collect();
+    assert!(lines.contains(&4) && lines.contains(&6), "{lines:?}");
+    let [words, _] = folder.run(&["steps", "scene.sdf", "--methods", "auto,sphere"], 0);
+    assert!(
+        words.contains("steps of sphere by what they were taken for"),
+        "{words}"
+    );
+    assert!(words.contains("100.0 %"), "{words}");
+}
+
+#[test]
+fn results_of_tests_for_build_servers() {
+    let folder = Folder::new("junit");
+    let script =
+        "show sphere(1)\ntest \"right\" { expect 1 == 1 }\ntest \"wrong\" { expect 1 == 2 }\n";
+    std::fs::write(folder.0.join("tests.sdf"), script).unwrap();
+    std::fs::write(folder.0.join("broken.sdf"), "show shpere(1)\n").unwrap();
+    let [answer, _] = folder.run(&["test", "tests.sdf", "--json"], 1);
+    let answer: Value = serde_json::from_str(&answer).unwrap();
+    assert_eq!(
+        (&answer["passed"], &answer["failed"]),
+        (&1.into(), &1.into())
+    );
+    let tests = &answer["scripts"][0]["tests"];
+    assert_eq!(
+        (&tests[0]["name"], &tests[0]["passed"]),
+        (&"right".into(), &true.into())
+    );
+    assert!(
+        tests[1]["message"]
+            .as_str()
+            .unwrap()
+            .contains("tests.sdf:3"),
+        "{tests}"
+    );
+    let [answer, _] = folder.run(&["test", "broken.sdf", "tests.sdf", "--junit", "r.xml"], 2);
+    assert!(answer.ends_with("1 passed, 1 failed\n"), "{answer}");
+    let xml = std::fs::read_to_string(folder.0.join("r.xml")).unwrap();
+    assert!(
+        xml.contains("tests=\"3\" failures=\"1\" errors=\"1\""),
+        "{xml}"
+    );
+    assert!(
+        xml.contains("<testcase classname=\"tests.sdf\" name=\"right\"/>"),
+        "{xml}"
+    );
+    assert!(
+        xml.contains("<testsuite name=\"broken.sdf\" tests=\"1\" failures=\"0\" errors=\"1\">"),
+        "{xml}"
+    );
+    folder.run(&["test", "tests.sdf", "--junit", "missing/r.xml"], 1);
+}

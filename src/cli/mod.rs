@@ -2,6 +2,9 @@
 
 mod bench;
 mod bench_report;
+mod chart;
+mod chart_panels;
+mod chart_tables;
 mod check;
 mod columns;
 mod completions;
@@ -10,6 +13,7 @@ mod eval;
 mod explain;
 mod failure;
 mod interrupt;
+mod junit;
 mod limits;
 mod limits_matrix;
 mod new;
@@ -19,6 +23,7 @@ mod reference;
 mod render;
 mod script;
 mod stats;
+mod steps;
 mod table;
 mod test;
 mod trace;
@@ -61,6 +66,8 @@ enum Command {
     Check(check::Arguments),
     New(new::Arguments),
     Bench(bench::Arguments),
+    Chart(chart::Arguments),
+    Steps(steps::Arguments),
     Explain(explain::Arguments),
     Eval(eval::Arguments),
     Trace(trace::Arguments),
@@ -84,6 +91,8 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::Check(arguments) => check::run(arguments),
         Command::New(arguments) => new::run(arguments),
         Command::Bench(arguments) => bench::run(arguments),
+        Command::Chart(arguments) => chart::run(arguments),
+        Command::Steps(arguments) => steps::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
         Command::Eval(arguments) => eval::run(arguments),
         Command::Trace(arguments) => trace::run(arguments),

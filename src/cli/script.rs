@@ -87,6 +87,11 @@ impl Scripts {
         read(path, &self.definitions)
     }
 
+    /// Where they are.
+    pub fn paths(&self) -> &[PathBuf] {
+        &self.paths
+    }
+
     /// How many there are.
     pub fn len(&self) -> usize {
         self.paths.len()

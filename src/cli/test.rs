@@ -2,10 +2,13 @@
 
 use super::console::{GREEN, RED, answer, answers_color, colored};
 use super::failure::Failure;
+use super::junit::{self, Case, Suite};
 use super::script::Scripts;
+use crate::lang::TestResult;
+use crate::output;
 use crate::trace::SceneTracer;
 use clap::Args;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 const AFTER_HELP: &str = "\
 A script's tests are its blocks `test \"name\" { expect ... }`. The closing line is `N passed, N failed`; the exit \
@@ -14,7 +17,8 @@ code is 0 if all tests pass, 1 if some fail, and 2 if a script is wrong.
 Examples:
   fieldstone test scene.sdf
   fieldstone test examples/*.sdf
-  fieldstone test gear.sdf -D teeth=30";
+  fieldstone test gear.sdf -D teeth=30
+  fieldstone test examples/*.sdf --junit results.xml";
 
 /// Run the `test` blocks of scripts
 #[derive(Args, Debug)]
@@ -22,6 +26,12 @@ Examples:
 pub struct Arguments {
     #[command(flatten)]
     scripts: Scripts,
+    /// Write the results to this file, in JUnit's XML
+    #[arg(long, value_name = "FILE.xml")]
+    junit: Option<PathBuf>,
+    /// Answer in JSON
+    #[arg(long)]
+    json: bool,
 }
 
 /// How many tests passed and failed.
@@ -38,31 +48,72 @@ struct Tally {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let scripts = &arguments.scripts;
     let mut tally = Tally::default();
-    let color = answers_color();
+    let mut suites = Vec::new();
     let loaded = scripts.each(|path, loaded| {
-        if scripts.len() > 1 {
+        if scripts.len() > 1 && !arguments.json {
             answer(&format!("{}\n", heading(path)))?;
         }
+        let mut cases = Vec::new();
         for test in loaded.run_tests(&SceneTracer::default()) {
-            let has_passed = test.failures.is_empty();
-            answer(&verdict(&test.name, has_passed, color))?;
-            if has_passed {
-                tally.passed += 1;
-            } else {
-                tally.failed += 1;
-                answer(&format!("\n{}", test.failures.render(color)))?;
+            if !arguments.json {
+                tell(&test)?;
             }
+            let has_passed = test.failures.is_empty();
+            tally.passed += usize::from(has_passed);
+            tally.failed += usize::from(!has_passed);
+            cases.push(Case {
+                failure: (!has_passed).then(|| test.failures.render(false)),
+                name: test.name,
+            });
         }
+        suites.push((path.to_path_buf(), cases));
         Ok(())
     });
     if !matches!(loaded, Err(Failure::Closed)) {
-        answer(&closing(tally))?;
+        report(arguments, suites, tally)?;
     }
     loaded?;
     if tally.failed > 0 {
         return Err(Failure::Other(String::new()));
     }
     Ok(())
+}
+
+/// Says what became of a test.
+fn tell(test: &TestResult) -> Result<(), Failure> {
+    let color = answers_color();
+    let has_passed = test.failures.is_empty();
+    answer(&verdict(&test.name, has_passed, color))?;
+    if has_passed {
+        return Ok(());
+    }
+    answer(&format!("\n{}", test.failures.render(color)))
+}
+
+/// Writes the files that were asked for, and the closing line or the whole answer in JSON.
+fn report(
+    arguments: &Arguments,
+    done: Vec<(PathBuf, Vec<Case>)>,
+    tally: Tally,
+) -> Result<(), Failure> {
+    let mut done = done.into_iter().peekable();
+    let suite = |path: &PathBuf| Suite {
+        script: path.display().to_string(),
+        // They are in the order of the scripts; those that could not be loaded are missing.
+        cases: done
+            .next_if(|(loaded, _)| loaded == path)
+            .map(|(_, cases)| cases),
+    };
+    let suites: Vec<Suite> = arguments.scripts.paths().iter().map(suite).collect();
+    if let Some(path) = &arguments.junit {
+        let failed = |error| Failure::writing(&format!("`{}`", path.display()), &error);
+        output::write(path, junit::xml(&suites).as_bytes()).map_err(failed)?;
+    }
+    answer(&if arguments.json {
+        junit::in_json(&suites)
+    } else {
+        closing(tally)
+    })
 }
 
 fn heading(path: &Path) -> String {

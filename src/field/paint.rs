@@ -106,7 +106,7 @@ fn cut_face<'a>(
 }
 
 /// The shares of a combination's children: its partial derivatives by them, without their signs and divided by their sum.
-fn weights(combination: &Combination, children: &[Arc<Node>], p: [f64; 3]) -> Vec<f64> {
+pub(super) fn weights(combination: &Combination, children: &[Arc<Node>], p: [f64; 3]) -> Vec<f64> {
     let point = Vec3::splat(p);
     let mut values = children.iter().map(|c| c.evaluate::<f64>(&point));
     let mut joined = values.next().expect("a combination has children");
@@ -134,7 +134,7 @@ fn weights(combination: &Combination, children: &[Arc<Node>], p: [f64; 3]) -> Ve
 }
 
 /// The point at which a modifier asks its child; of several, the one where the child's field is smallest.
-fn child_point(modifier: &AnyModifier, child: &Node, p: [f64; 3]) -> [f64; 3] {
+pub(super) fn child_point(modifier: &AnyModifier, child: &Node, p: [f64; 3]) -> [f64; 3] {
     let nearest = Cell::new((f64::INFINITY, p));
     let ask = |q: &Vec3<f64>| {
         let value = child.evaluate(q);

@@ -1,8 +1,9 @@
 //! What the camera's rays hit, ray by ray, in full precision: for judging and for counting.
 
 use super::job::STACK_BYTES;
+use super::statistics::Tally;
 use super::tile::{Tile, camera_ray};
-use super::{RenderOptions, View};
+use super::{RenderOptions, Steps, View};
 use crate::scene::Scene;
 use crate::shade::{Census, Surfaces, Whitted};
 use crate::trace::{Outcome, Ray};
@@ -54,6 +55,15 @@ impl Hits {
         self.outcomes.extend(other.outcomes);
         self.census += other.census;
         self
+    }
+
+    /// How many rays took how many steps.
+    pub fn steps(&self) -> Steps {
+        let mut tally = Tally::default();
+        self.outcomes
+            .iter()
+            .for_each(|outcome| tally.steps.add(outcome.steps));
+        tally.steps.summary()
     }
 
     /// Evaluations of fields a ray.

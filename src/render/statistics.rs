@@ -106,7 +106,7 @@ impl Histogram {
     }
 
     /// The summary; zeros where no ray was counted.
-    fn summary(&self) -> Steps {
+    pub fn summary(&self) -> Steps {
         let rays: u64 = self.0.values().sum();
         let steps: u128 = self
             .0

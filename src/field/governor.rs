@@ -78,8 +78,9 @@ mod tests {
             cube(),
             at(0.5, ball()),
         );
-        assert_eq!(governor(&cut, [-0.51, 0.0, 0.0]).0.kind(), "sphere");
-        assert_eq!(governor(&cut, [-0.5, 0.6, 0.0]).0.kind(), "box");
+        // The ball takes all of the cube but its two corners to the left, from x = -0.5 on at the height of its middle.
+        assert_eq!(governor(&cut, [-0.3, 0.0, 0.0]).0.kind(), "sphere");
+        assert_eq!(governor(&cut, [-0.5, 0.45, 0.45]).0.kind(), "box");
     }
 
     #[test]
@@ -91,7 +92,7 @@ mod tests {
             at(1.0, cube()),
         );
         let row = Node::modifier(
-            AnyModifier::Repeat(Repeat::new([8.0, 8.0, 8.0], [0.0; 3])),
+            AnyModifier::Repeat(Repeat::new([8.0, 8.0, 8.0], [f64::INFINITY; 3])),
             pair,
         );
         let row = row.unwrap();

@@ -385,3 +385,46 @@ fn results_of_tests_for_build_servers() {
     );
     folder.run(&["test", "tests.sdf", "--junit", "missing/r.xml"], 1);
 }
+
+#[test]
+fn studies_are_charts_of_their_own() {
+    let folder = Folder::new("study");
+    let [table, _] = folder.run(
+        &[
+            "chart",
+            "--study",
+            "grazing",
+            "--methods",
+            "auto,sphere",
+            "-q",
+        ],
+        0,
+    );
+    // From height 1 to 0.0001 at 30 degrees the height halves at every step: 2^-14 is the first below, after 14 of them.
+    assert!(table.contains("| 30 | 15 | 0 | 15 |"), "{table}");
+    for ending in ["svg", "png", "csv"] {
+        assert!(
+            folder.0.join("grazing").with_extension(ending).is_file(),
+            "{ending}"
+        );
+    }
+    for study in ["samples", "constants"] {
+        let [_, err] = folder.run(&["chart", "--study", study], 2);
+        assert!(err.contains("which scenes?"), "{err}");
+    }
+    let [_, err] = folder.run(&["chart"], 2);
+    assert!(err.contains("which scenes?"), "{err}");
+    let arguments = [
+        "chart",
+        "scene.sdf",
+        "--study",
+        "constants",
+        "--methods",
+        "sphere",
+        "--size",
+        "16x12",
+        "-q",
+    ];
+    let [table, _] = folder.run(&arguments, 0);
+    assert!(table.contains("scene: wrong"), "{table}");
+}

@@ -4,8 +4,10 @@ use super::chart_panels::{Measured, Metric, Work, chart};
 use super::chart_tables::{csv, json, markdown};
 use super::console::{answer, say_line};
 use super::failure::Failure;
-use super::script::{Scripts, compile, described};
+use super::script::{AnyScripts, compile, described};
+use super::study::{self, Study};
 use super::{tracing, value};
+use crate::output::chart::Chart;
 use crate::output::{self, Metadata};
 use crate::render::{Setting, Truth, sweep};
 use crate::scene::{Method, Scene, Settings};
@@ -28,17 +30,27 @@ that ended without an answer. Errors:
   normals    the angle between normals that 99 % of the hits don't exceed, in degrees
   image      the root mean square of the difference of the pictures' light (renders them as well)
 
+With --study, another chart is drawn instead, and its files are named after it:
+
+  grazing     steps towards a plane against the angle, with the closed form for Hart's steps
+  primitives  time against the number of primitives, from 1 to 10 000
+  constants   wrong rays and work against a factor on every Lipschitz constant (needs scenes)
+  distance    errors against the distance of everything from the origin
+  gradients   errors of normals by dual numbers, central and tetrahedral differences
+  samples     errors of pictures against the number of samples a pixel (needs scenes)
+
 Examples:
   fieldstone chart scene.sdf
   fieldstone chart a.sdf b.sdf --methods auto,sphere,relaxed --tolerances 1,0.1,0.01 -o charts
-  fieldstone chart scene.sdf --errors depth --work evaluations --size 320x180";
+  fieldstone chart scene.sdf --errors depth --work evaluations --size 320x180
+  fieldstone chart --study grazing";
 
 /// Chart the speed of methods against their accuracy
 #[derive(Args, Debug)]
 #[command(after_help = AFTER_HELP)]
 pub struct Arguments {
     #[command(flatten)]
-    scripts: Scripts,
+    scripts: AnyScripts,
     /// The methods [default: all but the reference]
     #[arg(long, value_name = "NAME[,NAME]", value_delimiter = ',', value_parser = tracing::method())]
     methods: Vec<Method>,
@@ -67,6 +79,9 @@ pub struct Arguments {
         default_value = "evaluations,milliseconds"
     )]
     work: Vec<Work>,
+    /// Another chart instead
+    #[arg(long, value_name = "NAME")]
+    study: Option<Study>,
     /// The folder of the files, which must exist [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -90,14 +105,62 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             folder.display()
         )));
     }
+    if let Some(study) = arguments.study {
+        return run_study(arguments, study, &folder);
+    }
+    if arguments.scripts.is_empty() {
+        return Err(Failure::Usage(
+            "which scenes? Write `fieldstone chart scene.sdf`".into(),
+        ));
+    }
     let mut measured = Vec::new();
-    let result = arguments.scripts.each(|path, loaded| {
+    arguments.scripts.each(|path, loaded| {
         measured.push(measure(arguments, path, loaded.scene)?);
         Ok(())
-    });
-    result?;
-    write_all(arguments, &folder, &measured)?;
+    })?;
+    let files = [
+        ("chart.csv", csv(&measured).into_bytes()),
+        ("chart.json", json(&measured).into_bytes()),
+        ("chart.md", markdown(&measured).into_bytes()),
+    ];
+    let names: Vec<String> = measured.iter().map(Measured::name).collect();
+    let chart = chart(&measured, &arguments.errors, &arguments.work);
+    draw(arguments, &folder, "chart", &chart, names.join(" "))?;
+    for (name, bytes) in files {
+        write(arguments, &folder.join(name), &bytes)?;
+    }
     answer(&markdown(&measured))
+}
+
+/// Draws another chart.
+fn run_study(arguments: &Arguments, study: Study, folder: &Path) -> Result<(), Failure> {
+    let mut scenes = Vec::new();
+    arguments.scripts.each(|path, loaded| {
+        let mut scene = loaded.scene;
+        scene.settings.size = size(arguments, &scene.settings);
+        compile(&scene)?;
+        scenes.push((study::name(path), scene));
+        Ok(())
+    })?;
+    let plan = study::Plan {
+        scenes,
+        methods: methods(arguments),
+        rounds: usize::from(arguments.rounds),
+    };
+    let result = study.carry_out(&plan)?;
+    draw(
+        arguments,
+        folder,
+        study.name(),
+        &result.chart,
+        String::new(),
+    )?;
+    write(
+        arguments,
+        &folder.join(study.name()).with_extension("csv"),
+        result.csv().as_bytes(),
+    )?;
+    answer(&result.markdown())
 }
 
 /// The size of the pictures of a scene.
@@ -109,19 +172,23 @@ fn size(arguments: &Arguments, settings: &Settings) -> [u32; 2] {
         .unwrap_or([WIDTH, scaled.clamp(1, 4 * WIDTH)])
 }
 
+/// The methods that were asked for, in the order of their list.
+fn methods(arguments: &Arguments) -> Vec<Method> {
+    let all = Method::ALL.iter().map(|(_, method)| *method);
+    match arguments.methods.is_empty() {
+        true => all.filter(|m| *m != Method::Reference).collect(),
+        false => all.filter(|m| arguments.methods.contains(m)).collect(),
+    }
+}
+
 /// Every method with every tolerance, and the scene's own setting.
 fn settings(arguments: &Arguments, settings: &Settings) -> Vec<Setting> {
-    let all = || Method::ALL.iter().map(|(_, method)| *method);
-    let methods: Vec<Method> = match arguments.methods.is_empty() {
-        true => all().filter(|m| *m != Method::Reference).collect(),
-        false => all().filter(|m| arguments.methods.contains(m)).collect(),
-    };
     let mut tolerances = arguments.tolerances.clone();
     tolerances.sort_by(|a, b| b.total_cmp(a));
     tolerances.dedup();
     let own = settings.tolerance;
     let mut list = Vec::new();
-    for method in methods {
+    for method in methods(arguments) {
         let extra = (method == settings.method && !tolerances.contains(&own)).then_some(own);
         let mut of_method: Vec<f64> = tolerances.iter().copied().chain(extra).collect();
         of_method.sort_by(|a, b| b.total_cmp(a));
@@ -158,35 +225,32 @@ fn measure(arguments: &Arguments, path: &Path, mut scene: Scene) -> Result<Measu
     })
 }
 
-/// Writes the chart in all its forms.
-fn write_all(arguments: &Arguments, folder: &Path, measured: &[Measured]) -> Result<(), Failure> {
-    let chart = chart(measured, &arguments.errors, &arguments.work);
-    let broken = Failure::Other;
-    let image = output::chart::pixels(&chart).map_err(broken)?;
-    let scripts: Vec<String> = measured.iter().map(Measured::name).collect();
+/// Writes the chart as SVG and as PNG.
+fn draw(
+    arguments: &Arguments,
+    folder: &Path,
+    name: &str,
+    chart: &Chart,
+    source: String,
+) -> Result<(), Failure> {
+    let vector = output::chart::svg(chart).map_err(Failure::Other)?;
+    let image = output::chart::pixels(chart).map_err(Failure::Other)?;
     let metadata = Metadata {
-        source: scripts.join(" "),
+        source,
         ..Metadata::default()
     };
     let picture =
         output::encode(&image, &metadata).map_err(|error| Failure::Other(error.to_string()))?;
-    let files = [
-        (
-            "chart.svg",
-            output::chart::svg(&chart).map_err(broken)?.into_bytes(),
-        ),
-        ("chart.png", picture),
-        ("chart.csv", csv(measured).into_bytes()),
-        ("chart.json", json(measured).into_bytes()),
-        ("chart.md", markdown(measured).into_bytes()),
-    ];
-    for (name, bytes) in files {
-        let path = folder.join(name);
-        let failed = |error: io::Error| Failure::writing(&format!("`{}`", path.display()), &error);
-        output::write(&path, &bytes).map_err(failed)?;
-        if !arguments.quiet {
-            say_line(&format!("wrote {}", path.display()));
-        }
+    let path = folder.join(name);
+    write(arguments, &path.with_extension("svg"), vector.as_bytes())?;
+    write(arguments, &path.with_extension("png"), &picture)
+}
+
+fn write(arguments: &Arguments, path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let failed = |error: io::Error| Failure::writing(&format!("`{}`", path.display()), &error);
+    output::write(path, bytes).map_err(failed)?;
+    if !arguments.quiet {
+        say_line(&format!("wrote {}", path.display()));
     }
     Ok(())
 }

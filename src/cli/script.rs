@@ -55,28 +55,9 @@ impl Scripts {
     /// The failure with the largest exit code; all have been said. Nothing is done after the reader of the answer left.
     pub fn each(
         &self,
-        mut work: impl FnMut(&Path, Loaded) -> Result<(), Failure>,
+        work: impl FnMut(&Path, Loaded) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        let mut worst: Option<Failure> = None;
-        for path in &self.paths {
-            let done = load(path, &self.definitions).and_then(|loaded| work(path, loaded));
-            let Err(failure) = done else { continue };
-            if matches!(failure, Failure::Closed) {
-                return Err(failure);
-            }
-            let message = failure.to_string();
-            if !message.is_empty() {
-                say_error(&message);
-            }
-            let silent = match failure {
-                Failure::Script => Failure::Script,
-                _ => Failure::Other(String::new()),
-            };
-            if worst.as_ref().is_none_or(|w| w.code() < silent.code()) {
-                worst = Some(silent);
-            }
-        }
-        worst.map_or(Ok(()), Err)
+        each(&self.paths, &self.definitions, work)
     }
 
     /// One of them anew, without a word about what [`Scripts::each`] has said of it.
@@ -96,6 +77,61 @@ impl Scripts {
     pub fn len(&self) -> usize {
         self.paths.len()
     }
+}
+
+/// Any number of scripts, also none.
+#[derive(Args, Debug)]
+pub struct AnyScripts {
+    /// The scripts of the scenes
+    #[arg(value_name = "SCENE")]
+    paths: Vec<PathBuf>,
+    #[command(flatten)]
+    definitions: Definitions,
+}
+
+impl AnyScripts {
+    /// As [`Scripts::each`].
+    ///
+    /// # Errors
+    /// As [`Scripts::each`].
+    pub fn each(
+        &self,
+        work: impl FnMut(&Path, Loaded) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        each(&self.paths, &self.definitions, work)
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.paths.is_empty()
+    }
+}
+
+fn each(
+    paths: &[PathBuf],
+    definitions: &Definitions,
+    mut work: impl FnMut(&Path, Loaded) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let mut worst: Option<Failure> = None;
+    for path in paths {
+        let done = load(path, definitions).and_then(|loaded| work(path, loaded));
+        let Err(failure) = done else { continue };
+        if matches!(failure, Failure::Closed) {
+            return Err(failure);
+        }
+        let message = failure.to_string();
+        if !message.is_empty() {
+            say_error(&message);
+        }
+        let silent = match failure {
+            Failure::Script => Failure::Script,
+            _ => Failure::Other(String::new()),
+        };
+        if worst.as_ref().is_none_or(|w| w.code() < silent.code()) {
+            worst = Some(silent);
+        }
+    }
+    worst.map_or(Ok(()), Err)
 }
 
 fn load(path: &Path, definitions: &Definitions) -> Result<Loaded, Failure> {

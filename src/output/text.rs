@@ -2,8 +2,11 @@
 
 /// The number with about four digits, as people read it: no more places than say something.
 pub fn short(x: f64) -> String {
+    if x.fract() == 0.0 && x.abs() < 1e15 {
+        return format!("{x}");
+    }
     let places = match x.abs() {
-        a if a == 0.0 || a >= 1000.0 => 0,
+        a if a >= 1000.0 => 0,
         a if a >= 100.0 => 1,
         a if a >= 10.0 => 2,
         a if a >= 1e-3 => 3,
@@ -33,10 +36,23 @@ mod tests {
 
     #[test]
     fn numbers_have_about_four_digits() {
-        let numbers = [0.0, 1234.5, 123.45, 12.345, 1.2345, 0.0012, 1.5e-7].map(short);
+        let numbers = [
+            0.0, 2.0, 1e8, 1234.5, 123.45, 12.345, 1.2345, 0.0012, 1.5e-7,
+        ]
+        .map(short);
         assert_eq!(
             numbers,
-            ["0", "1234", "123.5", "12.35", "1.234", "0.001", "1.5e-7"]
+            [
+                "0",
+                "2",
+                "100000000",
+                "1234",
+                "123.5",
+                "12.35",
+                "1.234",
+                "0.001",
+                "1.5e-7"
+            ]
         );
     }
 

@@ -39,7 +39,8 @@ pub struct Truth {
 const LONG: f64 = 1500.0;
 
 impl Setting {
-    fn applied(&self, scene: &Scene) -> Scene {
+    /// The scene with this setting.
+    pub fn applied(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         scene.settings.method = self.method;
         scene.settings.tolerance = self.tolerance;

@@ -169,6 +169,17 @@ impl World {
             .collect()
     }
 
+    /// The same world with every Lipschitz constant that methods take steps by times a factor. Below 1, that is no bound any
+    /// more: for studies of what a wrong one does.
+    pub fn with_constants_times(mut self, factor: f64) -> Self {
+        for part in &mut self.parts {
+            if let PartKind::Marched(marched) = &mut part.kind {
+                marched.lipschitz *= factor;
+            }
+        }
+        self
+    }
+
     /// The materials at a point of the surface of `part`, one or more.
     pub fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>> {
         let part = &self.parts[part as usize];

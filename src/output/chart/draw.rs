@@ -6,8 +6,9 @@ use super::scale::Range;
 use super::{Chart, Line, Panel, Point, Series};
 use plotters::prelude::DrawingBackend;
 
-/// The size of a panel with its title, labels and the room around it, in points.
+/// The size of a panel with its title, labels and the room around it, in points: one of several in a row, and one alone.
 const PANEL: [f64; 2] = [330.0, 264.0];
+const ALONE: [f64; 2] = [660.0, 320.0];
 
 /// The room within a panel that its plot leaves: left, top, right, below.
 const MARGINS: [f64; 4] = [56.0, 32.0, 14.0, 46.0];
@@ -53,17 +54,25 @@ enum Sign {
     Note(Look),
 }
 
+/// How many panels are in a row.
+fn columns(chart: &Chart) -> usize {
+    chart.columns.clamp(1, chart.panels.len().max(1))
+}
+
+/// The size of the panels of a chart.
+fn panel_size(chart: &Chart) -> [f64; 2] {
+    if columns(chart) == 1 { ALONE } else { PANEL }
+}
+
 /// Width and height of a chart in points, without its legend's wrapping, which needs a surface to measure on.
 pub(super) fn size(chart: &Chart) -> [f64; 2] {
-    let columns = chart.columns.clamp(1, chart.panels.len().max(1));
+    let columns = columns(chart);
+    let [wide, high] = panel_size(chart);
     let rows = chart.panels.len().div_ceil(columns);
-    let width = (columns as f64 * PANEL[0]).max(2.0 * PANEL[0]);
+    let width = (columns as f64 * wide).max(2.0 * PANEL[0]);
     [
         width,
-        head(chart)
-            + legend_lines(chart, width) as f64 * LEGEND_LINE
-            + 8.0
-            + rows as f64 * PANEL[1],
+        head(chart) + legend_lines(chart, width) as f64 * LEGEND_LINE + 8.0 + rows as f64 * high,
     ]
 }
 
@@ -151,14 +160,15 @@ pub(super) fn draw<B: DrawingBackend>(chart: &Chart, canvas: &Canvas<B>) -> Resu
     for entry in &layout.legend {
         draw_entry(canvas, entry)?;
     }
-    let columns = chart.columns.clamp(1, chart.panels.len().max(1));
-    let left = 0.5 * (layout.width - columns as f64 * PANEL[0]);
+    let columns = columns(chart);
+    let [wide, high] = panel_size(chart);
+    let left = 0.5 * (layout.width - columns as f64 * wide);
     for (i, panel) in chart.panels.iter().enumerate() {
         let corner = [
-            left + (i % columns) as f64 * PANEL[0],
-            layout.top + (i / columns) as f64 * PANEL[1],
+            left + (i % columns) as f64 * wide,
+            layout.top + (i / columns) as f64 * high,
         ];
-        Plot::new(panel, corner).draw(canvas)?;
+        Plot::new(panel, corner, [wide, high]).draw(canvas)?;
     }
     Ok(())
 }
@@ -232,10 +242,11 @@ struct Plot<'a> {
     x: Range,
     y: Range,
     corner: [f64; 2],
+    size: [f64; 2],
 }
 
 impl<'a> Plot<'a> {
-    fn new(panel: &'a Panel, corner: [f64; 2]) -> Self {
+    fn new(panel: &'a Panel, corner: [f64; 2], size: [f64; 2]) -> Self {
         let points = || panel.series.iter().flat_map(|s| &s.points);
         let y = points().flat_map(|p| [Some(p.at[1]), p.upper].into_iter().flatten());
         Self {
@@ -243,6 +254,7 @@ impl<'a> Plot<'a> {
             y: panel.y.scale.range(y),
             panel,
             corner,
+            size,
         }
     }
 
@@ -253,8 +265,8 @@ impl<'a> Plot<'a> {
         [
             x + left,
             y + top,
-            x + PANEL[0] - right,
-            y + PANEL[1] - below,
+            x + self.size[0] - right,
+            y + self.size[1] - below,
         ]
     }
 

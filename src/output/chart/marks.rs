@@ -69,7 +69,7 @@ impl Shape {
                 .collect()
         };
         match self {
-            Self::Disc => regular(24, 0.0, 1.0),
+            Self::Disc => regular(16, 0.0, 1.0),
             Self::Square => regular(4, 0.5, 1.25),
             Self::Up => regular(3, 0.0, 1.35),
             Self::Diamond => regular(4, 0.0, 1.3),

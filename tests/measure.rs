@@ -196,7 +196,9 @@ fn chart_writes_all_its_forms() {
     assert!(table.contains("| **auto** | 0.100 |"), "{table}");
     let read = |name: &str| std::fs::read(folder.0.join(name)).unwrap();
     assert_eq!(read("chart.md"), table.as_bytes());
-    assert!(read("chart.png").starts_with(b"\x89PNG"));
+    for name in ["chart.png", "overview.png"] {
+        assert!(read(name).starts_with(b"\x89PNG"), "{name}");
+    }
     let svg = String::from_utf8(read("chart.svg")).unwrap();
     for words in [
         "Speed against accuracy",

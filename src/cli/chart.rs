@@ -18,7 +18,8 @@ use std::path::{Path, PathBuf};
 const AFTER_HELP: &str = "\
 Every method traces the camera's rays of each scene at each tolerance; its hits are compared with those of `--method \
 reference`, and its times are the smallest of interleaved rounds on one thread, with the spread. The files chart.svg, \
-chart.png, chart.csv, chart.json and chart.md go to the folder of -o; the table is printed, too.
+chart.png, chart.csv, chart.json and chart.md go to the folder of -o; the table is printed, too. Of several kinds of panels, the \
+first is drawn alone as well, as overview.svg and overview.png.
 
 A point is a method at a tolerance. Down and left is good: few evaluations, small errors. The band joins the points that \
 no other point beats on both axes. Grey points missed surfaces: they are fast because they are wrong. Crossed ones have rays \
@@ -60,7 +61,7 @@ pub struct Arguments {
     /// Width and height in pixels [default: 160 wide, in the shape of the scene's picture]
     #[arg(long, value_name = "WxH", value_parser = value::size, allow_hyphen_values = true)]
     size: Option<[u32; 2]>,
-    /// How often everything is timed; what takes longer than 1.5 seconds is timed once
+    /// How often everything is timed; what takes longer than half a second is timed once
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000), allow_negative_numbers = true)]
     rounds: u16,
     /// The errors that are drawn, a panel each
@@ -124,8 +125,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         ("chart.md", markdown(&measured).into_bytes()),
     ];
     let names: Vec<String> = measured.iter().map(Measured::name).collect();
-    let chart = chart(&measured, &arguments.errors, &arguments.work);
-    draw(arguments, &folder, "chart", &chart, names.join(" "))?;
+    let all = chart(&measured, &arguments.errors, &arguments.work);
+    draw(arguments, &folder, "chart", &all, names.join(" "))?;
+    if arguments.errors.len() * arguments.work.len() > 1 {
+        let overview = chart(&measured, &arguments.errors[..1], &arguments.work[..1]);
+        draw(arguments, &folder, "overview", &overview, names.join(" "))?;
+    }
     for (name, bytes) in files {
         write(arguments, &folder.join(name), &bytes)?;
     }

@@ -36,7 +36,7 @@ pub struct Truth {
 }
 
 /// A run that takes longer than this, in milliseconds, is not repeated.
-const LONG: f64 = 1500.0;
+const LONG: f64 = 500.0;
 
 impl Setting {
     /// The scene with this setting.

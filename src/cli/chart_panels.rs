@@ -203,8 +203,6 @@ fn panel(scene: &Measured, metric: Metric, work: Work) -> Panel {
             .collect(),
     };
     let mut series: Vec<Series> = scene.methods().into_iter().map(of_method).collect();
-    // The default is drawn last, and so on top.
-    series.rotate_left(1);
     series.push(front(scene, metric, work));
     let [width, height] = scene.settings.size;
     Panel {

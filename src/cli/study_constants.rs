@@ -65,7 +65,7 @@ pub fn constants(plan: &Plan) -> Result<Findings, Fault> {
         }));
         panels.push(panel("work", "evaluations a ray", &|r| r.evaluations));
     }
-    let subtitle = "Every Lipschitz constant times a factor. Below 1 it is no bound: a certified method says that it cannot tell.";
+    let subtitle = "Every Lipschitz constant times a factor. Below 1 it is no bound; certified methods say so of most rays.";
     let chart = Chart {
         title: "Wrong constants".into(),
         subtitle: subtitle.into(),

@@ -295,14 +295,11 @@ impl<'a> Plot<'a> {
         self.draw_breaks(canvas)
     }
 
-    /// Bands first, so that they lie behind everything.
+    /// Bands first, so that they lie behind everything; the first style last, on top of the others.
     fn in_order(&self) -> impl Iterator<Item = &'a Series> {
-        let is_band = |s: &&Series| s.line == Line::Band;
-        let series = &self.panel.series;
-        series
-            .iter()
-            .filter(is_band)
-            .chain(series.iter().filter(move |s| !is_band(s)))
+        let mut series: Vec<&Series> = self.panel.series.iter().collect();
+        series.sort_by_key(|s| (s.line != Line::Band, std::cmp::Reverse(s.style)));
+        series.into_iter()
     }
 
     fn draw_axes<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> Result<(), Trouble> {

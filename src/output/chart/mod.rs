@@ -40,7 +40,7 @@ pub struct Panel {
     pub x: Axis,
     /// The vertical axis.
     pub y: Axis,
-    /// What is drawn, the first lowest.
+    /// What is drawn; of two at the same place, the one with the lower style is on top.
     pub series: Vec<Series>,
 }
 

@@ -430,3 +430,36 @@ fn studies_are_charts_of_their_own() {
     let [table, _] = folder.run(&arguments, 0);
     assert!(table.contains("scene: wrong"), "{table}");
 }
+
+#[test]
+fn budgets_of_steps_are_held_or_the_command_fails() {
+    let folder = Folder::new("budget");
+    let steps = |budget: &str, code: i32| {
+        folder.run(
+            &[
+                "steps",
+                "scene.sdf",
+                "--methods",
+                "auto,sphere",
+                "--budget",
+                budget,
+            ],
+            code,
+        )
+    };
+    let answer = folder.json(&["steps", "scene.sdf", "--methods", "auto,sphere", "--json"]);
+    let most = &answer["methods"][1]["max"];
+    let [_, err] = steps(&format!("max={most},unknown=100000"), 0);
+    assert_eq!(err, "");
+    let less = most.as_u64().unwrap() - 1;
+    let [answer, err] = steps(&format!("max={less}"), 1);
+    assert!(
+        answer.contains("steps of sphere by what they were taken for"),
+        "{answer}"
+    );
+    assert_eq!(
+        err,
+        format!("error: sphere: {most} steps of a ray, and the budget is {less}\n")
+    );
+    steps("median=3", 2);
+}

@@ -2,6 +2,7 @@
 
 mod bench;
 mod bench_report;
+mod budget;
 mod chart;
 mod chart_panels;
 mod chart_tables;

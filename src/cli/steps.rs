@@ -1,5 +1,6 @@
 //! `fieldstone steps`: how many steps rays take, and what they take them for.
 
+use super::budget::{self, Limit};
 use super::columns::{Row, aligned};
 use super::console::{answer, counted};
 use super::failure::Failure;
@@ -17,9 +18,12 @@ The first table has, for each method, how many camera rays took how many steps. 
 of what the steps were taken for, by line of the script: a ray's steps are put down to the leaf that it hit; if it hit \
 nothing, or what is met in closed form and so without steps, to the leaf that it passed most closely. They add up to all steps.
 
+With --budget, the exit code is 1 if a method exceeds it. Counts are the same on every machine, so this belongs into tests.
+
 Examples:
   fieldstone steps scene.sdf
   fieldstone steps scene.sdf --methods auto,sphere,auto-relaxed
+  fieldstone steps scene.sdf --budget mean=20,p99=80,unknown=0
   fieldstone steps scene.sdf --size 160x90 --json | jq '.methods[0].mean'";
 
 /// Print how many steps rays take by each method, and which lines of the script they take them for
@@ -37,15 +41,24 @@ pub struct Arguments {
     /// Width and height in pixels, up to 16384 each [default: what the script says, or else 640x360]
     #[arg(long, value_name = "WxH", value_parser = value::size, allow_hyphen_values = true)]
     size: Option<[u32; 2]>,
+    /// What no method may exceed, or the command fails: mean, p99, max (steps a ray), evaluations (a ray), unknown (rays)
+    #[arg(long, value_name = "NAME=N[,NAME=N]", value_delimiter = ',', value_parser = budget::limit)]
+    budget: Vec<Limit>,
     /// Answer in JSON
     #[arg(long)]
     json: bool,
 }
 
 /// What was counted for a method.
-struct Counted {
-    method: Method,
-    steps: Steps,
+pub struct Counted {
+    /// How rays find surfaces.
+    pub method: Method,
+    /// How many rays took how many steps.
+    pub steps: Steps,
+    /// Evaluations of fields a ray.
+    pub evaluations: f64,
+    /// Rays whose tracing ended without an answer.
+    pub unknown: u64,
     total: u64,
     causes: Vec<(Cause, Share)>,
 }
@@ -53,7 +66,7 @@ struct Counted {
 /// Counts the steps and prints them.
 ///
 /// # Errors
-/// If the script is wrong or shows what can't be traced.
+/// If the script is wrong or shows what can't be traced, or a budget is exceeded.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut scene = arguments.script.load()?.scene;
     let settings = &mut scene.settings;
@@ -71,7 +84,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         in_json(&scene, &counted)
     } else {
         in_words(&scene, &counted)
-    })
+    })?;
+    budget::hold(&arguments.budget, &counted)
 }
 
 fn count(scene: &Scene, method: Method) -> Result<Counted, Failure> {
@@ -82,6 +96,8 @@ fn count(scene: &Scene, method: Method) -> Result<Counted, Failure> {
     Ok(Counted {
         method,
         steps: hits.steps(),
+        evaluations: hits.evaluations(),
+        unknown: hits.census.unknown,
         total: hits.outcomes.iter().map(|o| u64::from(o.steps)).sum(),
         causes: effort(&hits, &world),
     })
@@ -162,6 +178,8 @@ fn histograms(all: &[Counted]) -> String {
     summary("mean", &|c| short(c.steps.mean));
     summary("p99", &|c| c.steps.p99.to_string());
     summary("max", &|c| c.steps.max.to_string());
+    summary("evaluations a ray", &|c| short(c.evaluations));
+    summary("unknown rays", &|c| grouped(c.unknown));
     summary("all steps", &|c| grouped(c.total));
     aligned(&padded(rows), 1)
 }
@@ -275,6 +293,8 @@ fn method_to_json(counted: &Counted) -> Value {
         "mean": counted.steps.mean,
         "p99": counted.steps.p99,
         "max": counted.steps.max,
+        "evaluations": counted.evaluations,
+        "unknown": counted.unknown,
         "total": counted.total,
         "histogram": counted.steps.histogram,
         "causes": causes,

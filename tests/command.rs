@@ -261,7 +261,15 @@ fn pictures_do_not_depend_on_threads() {
 fn unknown_pixels_are_warned_of() {
     let folder = Folder::with_scene("unknown");
     let answer = folder
-        .run(&["render", "scene.sdf", "--max-steps", "1", "-q"])
+        .run(&[
+            "render",
+            "scene.sdf",
+            "--method",
+            "sphere",
+            "--max-steps",
+            "1",
+            "-q",
+        ])
         .expect(0);
     assert!(answer.err.starts_with("warning: "), "{}", answer.err);
     assert!(answer.err.contains("unknown"), "{}", answer.err);

@@ -71,7 +71,7 @@ pub struct Settings {
     pub depth: u32,
     /// How far from the surface a hit may be, in footprints of a pixel at its distance.
     pub tolerance: f64,
-    /// How many steps a ray may take through one shape before it is given up as unknown.
+    /// How many steps a ray may take through one shape; then ranges decide, with the default method, or it is unknown.
     pub max_steps: u32,
     /// Which way rays find surfaces.
     pub method: Method,

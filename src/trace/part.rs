@@ -8,7 +8,7 @@ use crate::field::{Closure, Level, compile, compile_convex, compile_wide};
 use crate::num::{Dual, F64x32, Interval};
 use crate::scene::{Fault, FieldShape, Graph, Material, Node, Parts, Shadow, Shape};
 use glam::DVec3;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// How rays find a part.
 pub enum PartKind {
@@ -51,8 +51,10 @@ pub struct Marched {
     pub single: Closure<f64>,
     /// The field and its derivative along the ray, where the field is convex.
     pub slope: Option<Slope>,
-    /// The ranges of the field and of its derivative along the ray, for methods that ask for them.
-    pub ranges: Option<Closure<Dual<Interval, 1>>>,
+    /// The shape.
+    node: Arc<Node>,
+    /// What [`Marched::ranges`] gives, once it was asked for.
+    ranges: OnceLock<Closure<Dual<Interval, 1>>>,
     /// The field and its gradient.
     pub gradient: Closure<Dual<f64, 3>>,
 }
@@ -92,7 +94,7 @@ impl Part {
         };
         let kind = match analytic {
             Some(kind) => kind,
-            None => PartKind::Marched(Box::new(Marched::new(&node, demands, level)?)),
+            None => PartKind::Marched(Box::new(Marched::new(node.clone(), demands, level)?)),
         };
         let bounds = match &kind {
             PartKind::Ball(ball) => ball.bounds(),
@@ -122,7 +124,8 @@ fn shadow_of(material: &Option<Arc<Material>>) -> Shadow {
 
 impl Marched {
     /// The field of `node`, with what a method demands of it.
-    fn new(node: &Node, demands: Demands, level: Level) -> Result<Self, Fault> {
+    fn new(shape: Arc<Node>, demands: Demands, level: Level) -> Result<Self, Fault> {
+        let node = &*shape;
         let is_clipped = match demands.reach {
             Reach::Bounds => true,
             Reach::Constant => !node.lipschitz_everywhere().is_finite(),
@@ -160,9 +163,15 @@ impl Marched {
             value: compile_wide(node, level),
             single: compile(node),
             slope,
-            ranges: demands.ranges.then(|| compile(node)),
             gradient: compile(node),
+            ranges: OnceLock::new(),
+            node: shape,
         })
+    }
+
+    /// The ranges of the field and of its derivative along a ray, compiled when they are first asked for.
+    pub fn ranges(&self) -> &Closure<Dual<Interval, 1>> {
+        self.ranges.get_or_init(|| compile(&self.node))
     }
 }
 

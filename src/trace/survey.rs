@@ -1,8 +1,8 @@
-//! The driver of methods that ask for ranges along a ray: one ray at a time.
+//! The driver of methods that ask for ranges along a ray: one ray at a time. They also answer what others leave open.
 
 use super::Ray;
 use super::march::{Job, Walked};
-use super::method::Walk;
+use super::method::{Resolver, Walk};
 use super::part::Marched;
 use crate::num::{Dual, Interval, Vec3};
 
@@ -11,6 +11,26 @@ pub(super) fn survey<W: Walk>(part: &Marched, rays: &[Ray], jobs: &[Job]) -> Vec
     jobs.iter()
         .map(|job| walk::<W>(part, &rays[job.ray as usize], job))
         .collect()
+}
+
+/// Walks of other methods through `part`, with those that could not tell decided by ranges.
+pub(super) fn resolved(
+    part: &Marched,
+    rays: &[Ray],
+    jobs: &[Job],
+    mut walked: Vec<Walked>,
+) -> Vec<Walked> {
+    for open in walked.iter_mut().filter(|walked| walked.ending.is_open()) {
+        let Some(job) = jobs.iter().find(|job| job.ray == open.ray) else {
+            continue;
+        };
+        let again = walk::<Resolver>(part, &rays[job.ray as usize], job);
+        let steps = open.ending.steps + again.ending.steps;
+        open.evaluations += again.evaluations;
+        open.ending = again.ending;
+        open.ending.steps = steps;
+    }
+    walked
 }
 
 /// Walks one ray to its end.
@@ -39,18 +59,15 @@ fn walk<W: Walk>(part: &Marched, ray: &Ray, job: &Job) -> Walked {
     }
 }
 
-/// The ranges of the field and of its derivative along the ray, from `from` to `to`: everything, where the part has none.
+/// The ranges of the field and of its derivative along the ray, from `from` to `to`.
 fn ranges(part: &Marched, ray: &Ray, from: f64, to: f64) -> (Interval, Interval) {
-    let Some(ranges) = &part.ranges else {
-        return (Interval::ENTIRE, Interval::ENTIRE);
-    };
     let t = Interval::new(from, to);
     let along = |origin: f64, direction: f64| {
         let rate = Interval::point(direction);
         Dual::new(Interval::point(origin) + rate * t, [rate])
     };
     let (o, d) = (ray.origin, ray.direction);
-    let field = ranges(&Vec3::new(
+    let field = part.ranges()(&Vec3::new(
         along(o.x, d.x),
         along(o.y, d.y),
         along(o.z, d.z),

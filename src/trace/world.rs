@@ -8,7 +8,7 @@ use super::method::{
     Reference, Relaxed, Segment, SegmentTracing, SphereTracing,
 };
 use super::part::{Marched, Part, PartKind, flatten};
-use super::survey::survey;
+use super::survey::{resolved, survey};
 use super::{Occlusion, Outcome, Ray, Verdict};
 use crate::field::{Level, normal, shares};
 use crate::scene::{Fault, Material, Method, Node, Scene, Settings, Shadow};
@@ -352,10 +352,12 @@ impl World {
         };
         match self.settings.method {
             Method::Auto | Method::Convex if marched.slope.is_some() => {
-                march::<Convex>(marched, rays, jobs)
+                let walked = march::<Convex>(marched, rays, jobs);
+                resolved(marched, rays, jobs, walked)
             }
             Method::Auto | Method::Convex | Method::Certified => {
-                march::<Certified>(marched, rays, jobs)
+                let walked = march::<Certified>(marched, rays, jobs);
+                resolved(marched, rays, jobs, walked)
             }
             Method::Sphere => march::<SphereTracing>(marched, rays, jobs),
             Method::Relaxed => march::<Relaxed>(marched, rays, jobs),

@@ -183,3 +183,67 @@ fn names_of_methods_lead_back() {
     }
     assert_eq!(Settings::default().method, Method::Auto);
 }
+
+/// What the default finds on one ray.
+fn by_default(script: &str, origin: [f64; 3], direction: [f64; 3]) -> Outcome {
+    super::traced(
+        script,
+        Settings::default(),
+        &[super::ray(origin, direction)],
+    )[0]
+}
+
+#[test]
+fn rays_along_a_turned_face_are_decided() {
+    // A box that is no convex shape, and a ray along its face, within and without.
+    let script = "show (box(2) - sphere(0.1)).rotate(y: 32deg)";
+    let (sine, cosine) = 32f64.to_radians().sin_cos();
+    let turned = |x: f64, z: f64| [x * cosine + z * sine, 0.3, z * cosine - x * sine];
+    let along = turned(1.0, 0.0);
+    let along = [along[0], 0.0, along[2]];
+    for exponent in [3, 6, 9, 12] {
+        let gap = 10f64.powi(-exponent);
+        let out = by_default(script, turned(-3.0, 1.0 + gap), along);
+        assert_eq!(out.verdict, Verdict::Miss, "gap {gap}: {out:?}");
+        let out = by_default(script, turned(-3.0, 1.0 - gap), along);
+        assert!((out.t - 2.0).abs() < 1e-12, "depth {gap}: {out:?}");
+    }
+}
+
+#[test]
+fn rays_on_the_walls_of_a_repetition_are_decided() {
+    // Between two columns of balls, where no range knows which cell it is in.
+    let script = "show sphere(0.2).repeat([1, 0, 1], count: [2, 1, 40])";
+    let out = by_default(script, [0.0, 0.0, 30.0], [0.0, 0.0, -1.0]);
+    assert_eq!(out.verdict, Verdict::Miss, "{out:?}");
+    let touching = "show sphere(0.5).repeat([1, 0, 1], count: [2, 1, 40]) | box(0.1)";
+    let out = by_default(touching, [0.0, 0.0, 30.0], [0.0, 0.0, -1.0]);
+    assert!((out.t - 29.95).abs() < 1e-9, "{out:?}");
+}
+
+#[test]
+fn what_is_no_number_leaves_its_neighbours_alone() {
+    let script =
+        "field gap(p) lipschitz 1.1 { return p.y + 1e-3 * (sqrt(p.x - 100) - 10) } show gap";
+    let nodes = shown(script);
+    let rays: Vec<Ray> = (0..64)
+        .map(|i| {
+            super::ray(
+                [if i % 3 == 0 { 0.0 } else { 200.0 }, 1.0, f64::from(i)],
+                [0.0, -1.0, 0.0],
+            )
+        })
+        .collect();
+    for (name, method) in Method::ALL {
+        let world = World::of(&nodes, &settings(method)).expect("a world");
+        let found = world.nearest(&rays, Visibility::All);
+        for (i, out) in found.iter().enumerate().filter(|(i, _)| i % 3 != 0) {
+            assert!((out.t - 1.0).abs() < 1e-3, "{name}: ray {i}: {out:?}");
+        }
+        // Ranges say nothing of what is no number: interval analysis takes it for a surface.
+        for (i, out) in found.iter().enumerate().filter(|(i, _)| i % 3 == 0) {
+            let is_told = out.verdict == Verdict::Unknown || method == Method::Interval;
+            assert!(is_told, "{name}: ray {i}: {out:?}");
+        }
+    }
+}

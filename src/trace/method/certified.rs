@@ -4,9 +4,9 @@
 //! until the field changes its sign, and the root is then enclosed to rounding. So silhouettes do not grow by epsilon, a
 //! ray that starts on a surface leaves it, and a touch from outside is no hit. A step longer than is known to be free
 //! is doubted afterwards: between two values a and b of one sign there is no root if |a| + |b| >= lambda times the
-//! distance; else it is halved until that holds, a root appears, or a budget ends. So thin sheets are found, and a root is
-//! passed over only together with a second one, where the ray grazes. A field that changes faster than lambda allows
-//! refutes its constant, and the walk ends as unknown. Sources: Hart 1996; bracketing after Dowell and Jarratt 1971; the
+//! distance; else it is halved until that holds, a root appears, or a budget ends: then the walk ends as unknown, and so it
+//! does where a field changes faster than lambda allows, which refutes its constant. A field that is never negative is
+//! followed by Hart's steps until nothing but rounding is left of it. Sources: Hart 1996; bracketing after Dowell and Jarratt 1971; the
 //! two-sided test as in POV-Ray's isosurfaces.
 
 use super::{Ending, Segment, Walk};
@@ -91,7 +91,7 @@ impl Certified {
             let width = now.t - last.t;
             let allowed = segment.lipschitz * width * (1.0 + 1e-9) + segment.noise(now.t);
             if (now.value - last.value).abs() > allowed {
-                return self.end(Verdict::Unknown, last.t, f64::INFINITY);
+                return Some(Ending::broken(last.t, self.steps));
             }
             if now.value != 0.0 && (now.value < 0.0) != (last.value < 0.0) {
                 self.phase = Phase::Enclosing(last, now);
@@ -114,9 +114,11 @@ impl Certified {
         let segment = self.segment;
         let epsilon = segment.epsilon(now.t).max(self.finest(now.t));
         let free = now.value.abs() / segment.lipschitz;
-        if segment.is_sheet && free <= epsilon && self.has_departed {
-            return self.end(Verdict::Hit, now.t, epsilon);
+        let rounding = (segment.noise(now.t) / segment.lipschitz).max(self.finest(now.t));
+        if segment.is_sheet && free <= rounding && self.has_departed {
+            return self.end(Verdict::Hit, now.t, rounding);
         }
+        let is_sheet_ahead = segment.is_sheet && self.has_departed;
         self.has_departed |= free > epsilon || segment.start > 0.0;
         if now.t >= segment.end || now.t + free > segment.end {
             return self.end(Verdict::Miss, segment.end, 0.0);
@@ -133,7 +135,7 @@ impl Certified {
         let is_on_surface = now.value == 0.0 || is_start;
         self.phase = Phase::Marching(if is_on_surface { last } else { Some(now) });
         // A step longer than is known to be free must not jump over the end of the segment.
-        self.t = if free >= epsilon {
+        self.t = if free >= epsilon || is_sheet_ahead {
             now.t + free
         } else {
             (now.t + epsilon).min(segment.end)
@@ -162,7 +164,7 @@ impl Certified {
                 continue;
             }
             if doubt.budget == 0 {
-                break;
+                return self.end(Verdict::Unknown, doubt.left.t, f64::INFINITY);
             }
             doubt.budget -= 1;
             self.t = doubt.left.t + 0.5 * width;
@@ -233,7 +235,7 @@ impl Walk for Certified {
 
     fn observe(&mut self, value: f64, _: f64) -> Option<Ending> {
         if value.is_nan() {
-            return self.end(Verdict::Unknown, self.t, f64::INFINITY);
+            return Some(Ending::broken(self.t, self.steps));
         }
         let now = Sample { t: self.t, value };
         match std::mem::replace(&mut self.phase, Phase::Marching(None)) {

@@ -129,7 +129,10 @@ impl Walk for Convex {
             return walk.observe(value, slope);
         }
         self.steps += 1;
-        if value.is_nan() || slope.is_nan() || self.steps > self.segment.max_steps {
+        if value.is_nan() {
+            return Some(Ending::broken(self.segment.start, self.steps));
+        }
+        if slope.is_nan() || self.steps > self.segment.max_steps {
             return self.end(Verdict::Unknown, self.segment.start, f64::INFINITY);
         }
         match self.way {

@@ -20,8 +20,6 @@ pub struct Demands {
     pub closed_forms: bool,
     /// Whether derivatives along rays are wanted of convex fields.
     pub slopes: bool,
-    /// Whether ranges along rays are wanted.
-    pub ranges: bool,
     /// Where rays are followed.
     pub reach: Reach,
 }
@@ -40,10 +38,6 @@ impl Demands {
         Self {
             closed_forms: method == Method::Auto,
             slopes: matches!(method, Method::Auto | Method::Convex),
-            ranges: matches!(
-                method,
-                Method::Segment | Method::Interval | Method::Reference
-            ),
             reach,
         }
     }

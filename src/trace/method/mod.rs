@@ -16,6 +16,7 @@ mod enhanced;
 mod interval;
 mod reference;
 mod relaxed;
+mod resolver;
 mod segment;
 mod sphere;
 
@@ -28,6 +29,7 @@ pub use enhanced::Enhanced;
 pub use interval::IntervalAnalysis;
 pub use reference::Reference;
 pub use relaxed::Relaxed;
+pub use resolver::Resolver;
 pub use segment::SegmentTracing;
 pub use sphere::SphereTracing;
 
@@ -100,10 +102,28 @@ pub struct Ending {
     pub verdict: Verdict,
     /// Where: the hit, or how far the ray is known to be free.
     pub t: f64,
-    /// The surface is within `t - error` and `t + error`.
+    /// The surface is within `t - error` and `t + error`; NaN where the field is broken.
     pub error: f64,
     /// How many steps were taken.
     pub steps: u32,
+}
+
+impl Ending {
+    /// The end of a walk at `t` where the field is broken: it is not a number, or steeper than its constant. Whatever
+    /// another method would find in it cannot be trusted.
+    pub fn broken(t: f64, steps: u32) -> Self {
+        Self {
+            verdict: Verdict::Unknown,
+            t,
+            error: f64::NAN,
+            steps,
+        }
+    }
+
+    /// Whether the walk could not tell, and another method may.
+    pub fn is_open(&self) -> bool {
+        self.verdict == Verdict::Unknown && !self.error.is_nan()
+    }
 }
 
 /// A walk of one ray.

@@ -60,6 +60,25 @@ fn the_matrix_is_as_recorded_and_the_default_is_nowhere_wrong() {
 }
 
 #[test]
+fn tests_of_limits_pass_by_default() {
+    let is_traced = |path: &PathBuf| {
+        let text = fs::read_to_string(path).expect("a script");
+        let second = text.lines().nth(1).unwrap_or("");
+        !second.starts_with("// refused: ") && !second.starts_with("// see: ")
+    };
+    let traced: Vec<PathBuf> = scripts().into_iter().filter(is_traced).collect();
+    assert!(traced.len() >= 58, "only {} scripts", traced.len());
+    let mut command = Command::new(env!("CARGO_BIN_EXE_fieldstone"));
+    let answer = command
+        .arg("test")
+        .args(&traced)
+        .output()
+        .expect("the command runs");
+    let said = String::from_utf8_lossy(&answer.stdout);
+    assert_eq!(answer.status.code(), Some(0), "{said}");
+}
+
+#[test]
 fn sphere_tracing_fails_where_theory_says() {
     // A suite in which it never fails tests nothing.
     let answer = limits(&["--method", "sphere"]);

@@ -258,6 +258,18 @@ fn pictures_do_not_depend_on_threads() {
 }
 
 #[test]
+fn explain_names_the_method_of_the_script() {
+    let folder = Folder::new("paths");
+    for (method, path) in [("auto", "sphere tracing"), ("bisect", "bisect")] {
+        let script = format!("show torus(1, 0.2)\nrender {{ method: \"{method}\" }}\n");
+        folder.write("a.sdf", &script);
+        let answer = folder.run(&["explain", "a.sdf"]).expect(0);
+        let line = format!("\n  {path}  torus\n");
+        assert!(answer.out.contains(&line), "{}", answer.out);
+    }
+}
+
+#[test]
 fn unknown_pixels_are_warned_of() {
     let folder = Folder::with_scene("unknown");
     let answer = folder

@@ -213,9 +213,13 @@ impl World {
         self.parts.len()
     }
 
-    /// How rays find each part, in words.
+    /// How rays find each part, in words: its own path where the method has several, else the method's name.
     pub fn paths(&self) -> impl Iterator<Item = (&'static str, &Arc<Node>)> {
-        self.parts.iter().map(|part| (part.kind.word(), &part.node))
+        let method = self.settings.method;
+        self.parts.iter().map(move |part| match method {
+            Method::Auto | Method::Convex => (part.kind.word(), &part.node),
+            _ => (method.name(), &part.node),
+        })
     }
 
     /// Asks all parts, the closed forms first, then marches what is left part by part, nearest first. With `any`, a ray

@@ -312,8 +312,6 @@ fn same_bits(a: &Outcome, b: &Outcome) -> bool {
             o.error.to_bits(),
             [x, y, z],
             o.part,
-            o.steps,
-            o.evaluations,
         )
     };
     bits(a) == bits(b)

@@ -52,6 +52,12 @@ pub trait Blend: super::Declared {
         (0..n).fold(Bounds::EMPTY, |b, i| b.hull(child(i, level)))
     }
 
+    /// For a seam: where two fields differ by at least this, the union is the smaller of them, to the bit, and so
+    /// are its derivatives. None where there is no such width.
+    fn width(&self) -> Option<f64> {
+        None
+    }
+
     /// Whether it is the minimum itself.
     fn is_hard(&self) -> bool {
         false
@@ -82,6 +88,11 @@ impl AnyBlend {
     /// The same blend, hard where it has no width.
     pub fn simplified(self) -> Self {
         if self.is_hard() { Self::HARD } else { self }
+    }
+
+    /// Where two fields differ by at least this, the blend is the smaller of them; none where there is no such width.
+    pub fn width(&self) -> Option<f64> {
+        with_blend!(self, blend => blend.width())
     }
 
     /// Whether the blend is the minimum itself.

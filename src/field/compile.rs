@@ -6,11 +6,67 @@
 #![allow(unsafe_code)]
 
 use super::Level;
+use crate::catalogue::Combination;
 use crate::num::{Number, Vec3};
-use crate::scene::Node;
+use crate::scene::{Graph, Node};
+use std::sync::Arc;
 
 /// A field, ready to be evaluated.
-pub type Closure<N> = Box<dyn Fn(&Vec3<N>) -> N + Send + Sync>;
+pub type Closure<N> = Arc<dyn Fn(&Vec3<N>) -> N + Send + Sync>;
+
+/// A graph, ready to be evaluated: writes its outputs.
+pub type Walked<N> = Arc<dyn Fn(&Vec3<N>, &mut [N]) + Send + Sync>;
+
+/// The walk over a graph, with the instructions of `level`, or of the best level below it that the processor has.
+pub fn compile_graph<N: Number>(graph: &Arc<Graph>, level: Level) -> Walked<N> {
+    match level.min(Level::supported()) {
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: `Level::supported` has detected every feature of the module.
+        Level::Avx512 => unsafe { avx512::walked(graph) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Level::Avx2 => unsafe { avx2::walked(graph) },
+        _ => baseline::walked(graph),
+    }
+}
+
+/// Work that runs with the instructions of a level: all that it calls is inlined into it or is a closure of that level.
+pub trait Task {
+    /// What it gives.
+    type Output;
+
+    /// Does the work. To be marked `#[inline(always)]`, or it falls out of the level.
+    fn run(self) -> Self::Output;
+}
+
+/// Runs `task` with the instructions of `level`, or of the best level below it that the processor has.
+pub fn run_at<T: Task>(level: Level, task: T) -> T::Output {
+    match level.min(Level::supported()) {
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: `Level::supported` has detected every feature of the module.
+        Level::Avx512 => unsafe { tasks::run_avx512(task) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Level::Avx2 => unsafe { tasks::run_avx2(task) },
+        _ => task.run(),
+    }
+}
+
+/// Tasks, for each level: apart from the closures, so that a change of a task does not compile them again.
+#[cfg(target_arch = "x86_64")]
+mod tasks {
+    use super::Task;
+
+    #[target_feature(enable = "avx2")]
+    pub(super) fn run_avx2<T: Task>(task: T) -> T::Output {
+        task.run()
+    }
+
+    #[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl")]
+    pub(super) fn run_avx512<T: Task>(task: T) -> T::Output {
+        task.run()
+    }
+}
 
 /// The field of `node` as a closure without special instructions: for scalars, duals and intervals.
 pub fn compile<N: Number>(node: &Node) -> Closure<N> {
@@ -41,6 +97,23 @@ fn at_level<N: Number, const GRAPHS: bool>(node: &Node, level: Level) -> Closure
     }
 }
 
+/// The closure of a combination of closures that were compiled for `level`; none where its blend is a graph.
+pub fn combine<N: Number>(
+    combination: &Combination,
+    children: Vec<Closure<N>>,
+    level: Level,
+) -> Option<Closure<N>> {
+    match level.min(Level::supported()) {
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: `Level::supported` has detected every feature of the module.
+        Level::Avx512 => unsafe { avx512::combined(combination, children) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Level::Avx2 => unsafe { avx2::combined(combination, children) },
+        _ => baseline::combined(combination, children),
+    }
+}
+
 /// How many registers of a user's field live on the stack.
 const FEW_REGISTERS: usize = 16;
 
@@ -48,8 +121,8 @@ const FEW_REGISTERS: usize = 16;
 macro_rules! builders {
     ($(#[$feature:meta])* mod $level:ident) => {
         mod $level {
-            use super::{Closure, FEW_REGISTERS};
-            use crate::catalogue::{Blend, Modifier, Operation, Primitive, Similarity};
+            use super::{Closure, FEW_REGISTERS, Walked};
+            use crate::catalogue::{Blend, Combination, Modifier, Operation, Primitive, Similarity};
             use crate::catalogue::{with_compiled_blend, with_compiled_modifier, with_compiled_primitive};
             use crate::num::{Number, Vec3};
             use crate::scene::{Graph, Node, Shape};
@@ -80,9 +153,7 @@ macro_rules! builders {
                     Shape::Field(_) => None,
                     Shape::Combination(combination, children) => {
                         let children = children.iter().map(|c| build::<N, GRAPHS>(c)).collect();
-                        with_compiled_blend!(&combination.blend, b => {
-                            joined(combination.operation, b.clone(), children)
-                        })
+                        combined(combination, children)
                     }
                     Shape::Modifier(modifier, child) => {
                         let child = build::<N, GRAPHS>(child);
@@ -91,7 +162,7 @@ macro_rules! builders {
                     Shape::Displacement(_) => None,
                 };
                 // Not a number: a walk that meets it ends as unknown.
-                compiled.unwrap_or_else(|| Box::new(|_: &Vec3<N>| N::splat(f64::NAN)))
+                compiled.unwrap_or_else(|| Arc::new(|_: &Vec3<N>| N::splat(f64::NAN)))
             }
 
             $(#[$feature])*
@@ -99,9 +170,9 @@ macro_rules! builders {
                 let scale = N::splat(map.scale);
                 if map.is_translation() {
                     let shift = map.shift;
-                    return Box::new(move |p: &Vec3<N>| leaf.distance(&(*p + Vec3::splat(shift))));
+                    return Arc::new(move |p: &Vec3<N>| leaf.distance(&(*p + Vec3::splat(shift))));
                 }
-                Box::new(move |p: &Vec3<N>| leaf.distance(&map.point(p)) * scale)
+                Arc::new(move |p: &Vec3<N>| leaf.distance(&map.point(p)) * scale)
             }
 
             $(#[$feature])*
@@ -109,14 +180,20 @@ macro_rules! builders {
                 let scale = N::splat(map.scale);
                 if map.is_translation() {
                     let shift = map.shift;
-                    return Box::new(move |p: &Vec3<N>| child(&(*p + Vec3::splat(shift))));
+                    return Arc::new(move |p: &Vec3<N>| child(&(*p + Vec3::splat(shift))));
                 }
-                Box::new(move |p: &Vec3<N>| child(&map.point(p)) * scale)
+                Arc::new(move |p: &Vec3<N>| child(&map.point(p)) * scale)
             }
 
             $(#[$feature])*
             fn modified<M: Modifier + Send + Sync + 'static, N: Number>(modifier: M, child: Closure<N>) -> Closure<N> {
-                Box::new(move |p: &Vec3<N>| modifier.apply(p, |q| child(q)))
+                Arc::new(move |p: &Vec3<N>| modifier.apply(p, |q| child(q)))
+            }
+
+            /// The closure of a combination of closures that are there already.
+            $(#[$feature])*
+            pub(super) fn combined<N: Number>(combination: &Combination, children: Vec<Closure<N>>) -> Option<Closure<N>> {
+                with_compiled_blend!(&combination.blend, b => joined(combination.operation, b.clone(), children))
             }
 
             $(#[$feature])*
@@ -128,21 +205,21 @@ macro_rules! builders {
                 let rest = children.split_off(1);
                 let first = children.remove(0);
                 match operation {
-                    Operation::Union | Operation::Joint => Box::new(move |p: &Vec3<N>| {
+                    Operation::Union | Operation::Joint => Arc::new(move |p: &Vec3<N>| {
                         let mut value = first(p);
                         for child in &rest {
                             value = Operation::Union.join(&blend, value, child(p));
                         }
                         value
                     }),
-                    Operation::Intersection => Box::new(move |p: &Vec3<N>| {
+                    Operation::Intersection => Arc::new(move |p: &Vec3<N>| {
                         let mut value = first(p);
                         for child in &rest {
                             value = Operation::Intersection.join(&blend, value, child(p));
                         }
                         value
                     }),
-                    Operation::Difference => Box::new(move |p: &Vec3<N>| {
+                    Operation::Difference => Arc::new(move |p: &Vec3<N>| {
                         let mut value = first(p);
                         for child in &rest {
                             value = Operation::Difference.join(&blend, value, child(p));
@@ -154,9 +231,20 @@ macro_rules! builders {
 
             $(#[$feature])*
             fn recorded<N: Number>(graph: &Arc<Graph>) -> Closure<N> {
+                let walk = walked::<N>(graph);
+                Arc::new(move |p: &Vec3<N>| {
+                    let mut output = [N::splat(0.0)];
+                    walk(p, &mut output);
+                    output[0]
+                })
+            }
+
+            /// The walk over a graph: writes its outputs.
+            $(#[$feature])*
+            pub(super) fn walked<N: Number>(graph: &Arc<Graph>) -> Walked<N> {
                 let shapes: Vec<Closure<N>> = graph.shapes().iter().map(|s| build::<N, true>(s)).collect();
                 let graph = graph.clone();
-                Box::new(move |p: &Vec3<N>| {
+                Arc::new(move |p: &Vec3<N>, outputs: &mut [N]| {
                     // Few registers live on the stack; one walk serves both, or the code would double.
                     let mut few = [N::splat(0.0); FEW_REGISTERS];
                     let mut many = Vec::new();
@@ -167,7 +255,9 @@ macro_rules! builders {
                         &mut many[..]
                     };
                     graph.run(p, registers, &|i, q: &Vec3<N>| shapes[i](q));
-                    graph.output(registers, 0)
+                    for (i, output) in outputs.iter_mut().enumerate() {
+                        *output = graph.output(registers, i);
+                    }
                 })
             }
         }

@@ -6,10 +6,14 @@ mod gradient;
 mod packets;
 mod paint;
 mod processor;
+mod thicket;
 
-pub use compile::{Closure, compile, compile_convex, compile_wide};
+pub use compile::{
+    Closure, Task, Walked, combine, compile, compile_convex, compile_graph, compile_wide, run_at,
+};
 pub use governor::governor;
 pub use gradient::normal;
 pub use packets::{Packet, Packets};
 pub use paint::{Share, shares};
 pub use processor::Level;
+pub use thicket::{Reach, Thicket, Thinned};

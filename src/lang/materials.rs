@@ -159,7 +159,7 @@ impl<'a> Machine<'a> {
             _ => return Ok(None),
         };
         let graph = self.pattern_graph(pattern, at)?;
-        let outputs = graph.values([0.0; 3]).len();
+        let outputs = graph.outputs();
         Ok(Some((Arc::new(graph), outputs)))
     }
 }

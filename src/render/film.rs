@@ -70,13 +70,24 @@ impl Film {
             .map_or(&[], |plane| &plane.values[pixel * n..][..n])
     }
 
-    /// Records a pixel in all channels of the film.
-    pub(super) fn record(&mut self, i: u32, j: u32, pixel: &Pixel) {
-        let index = self.index(i, j);
-        for plane in &mut self.planes {
+    /// Records pixels in all channels of the film, each at its column and row.
+    pub(super) fn record<'a>(
+        &mut self,
+        pixels: impl Iterator<Item = ([u32; 2], &'a Pixel)> + Clone,
+    ) {
+        let Self {
+            width,
+            height,
+            planes,
+        } = self;
+        for plane in planes {
             let n = plane.channel.components();
-            let numbers = pixel.numbers(plane.channel);
-            plane.values[index * n..][..n].copy_from_slice(&numbers[..n]);
+            for ([i, j], pixel) in pixels.clone() {
+                assert!(i < *width && j < *height, "the pixel is on the film");
+                let index = j as usize * *width as usize + i as usize;
+                let numbers = pixel.numbers(plane.channel);
+                plane.values[index * n..][..n].copy_from_slice(&numbers[..n]);
+            }
         }
     }
 

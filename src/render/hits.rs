@@ -30,14 +30,14 @@ impl Hits {
         let tiles = Tile::all(settings.size, RenderOptions::default().tile);
         let trace = |tile: &Tile| {
             let ray = |pixel: &[u32; 2]| camera_ray(&view, *pixel, [0.0; 2]);
-            let rays: Vec<Ray> = tile.pixels.iter().map(ray).collect();
-            let mut census = Census::default();
-            let outcomes = whitted.first_hits(&rays, &mut census);
-            Self {
-                rays,
-                outcomes,
-                census,
+            let mut hits = Self::default();
+            for block in &tile.blocks {
+                let rays: Vec<Ray> = block.iter().map(ray).collect();
+                hits.outcomes
+                    .extend(whitted.first_hits(&rays, &mut hits.census));
+                hits.rays.extend(rays);
             }
+            hits
         };
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)

@@ -30,7 +30,7 @@ pub struct RenderOptions<'a> {
     pub channels: &'a [Channel],
     /// How many threads work; 0 for one on each processor.
     pub threads: usize,
-    /// How wide and high a tile is, in pixels; at least 1.
+    /// How wide and high a tile is, in pixels: rounded up to a multiple of 16.
     pub tile: u32,
     /// Is told after each tile, by whichever thread rendered it.
     pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
@@ -142,9 +142,8 @@ struct Recording {
 impl Recording {
     /// Adds a tile, and gives how many there are now.
     fn add(&mut self, tile: &Tile, pixels: &[Pixel], cost: Tally) -> usize {
-        for ([i, j], pixel) in tile.pixels.iter().zip(pixels) {
-            self.film.record(*i, *j, pixel);
-        }
+        let places = tile.blocks.iter().flatten().copied();
+        self.film.record(places.zip(pixels));
         self.tally += cost;
         self.done += 1;
         self.done

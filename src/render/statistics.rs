@@ -97,22 +97,36 @@ pub struct Milliseconds {
 
 /// How many rays took how many steps.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Histogram(BTreeMap<u32, u64>);
+pub struct Histogram {
+    /// The numbers of rays with few steps.
+    few: [u64; 32],
+    /// The others.
+    many: BTreeMap<u32, u64>,
+}
 
 impl Histogram {
     /// Counts a ray.
     pub fn add(&mut self, steps: u32) {
-        *self.0.entry(steps).or_default() += 1;
+        match self.few.get_mut(steps as usize) {
+            Some(count) => *count += 1,
+            None => *self.many.entry(steps).or_default() += 1,
+        }
+    }
+
+    /// The numbers of steps that occurred, each with its number of rays, in order.
+    fn counts(&self) -> impl Iterator<Item = (u32, u64)> {
+        let few = (0..).zip(self.few).filter(|(_, rays)| *rays > 0);
+        few.chain(self.many.iter().map(|(steps, rays)| (*steps, *rays)))
     }
 
     /// The summary; zeros where no ray was counted.
     pub fn summary(&self) -> Steps {
-        let rays: u64 = self.0.values().sum();
-        let steps: u128 = self
-            .0
+        let histogram: Vec<(u32, u64)> = self.counts().collect();
+        let rays: u64 = histogram.iter().map(|(_, n)| n).sum();
+        let steps = histogram
             .iter()
-            .map(|(s, n)| u128::from(*s) * u128::from(*n))
-            .sum();
+            .map(|(s, n)| u128::from(*s) * u128::from(*n));
+        let steps: u128 = steps.sum();
         let mean = if rays == 0 {
             0.0
         } else {
@@ -120,15 +134,26 @@ impl Histogram {
         };
         let enough = rays - rays / 100;
         let mut seen = 0;
-        let p99 = self.0.iter().find(|(_, n)| {
-            seen += **n;
+        let p99 = histogram.iter().find(|(_, n)| {
+            seen += *n;
             seen >= enough
         });
         Steps {
             mean,
             p99: p99.map_or(0, |(s, _)| *s),
-            max: self.0.keys().next_back().copied().unwrap_or(0),
-            histogram: self.0.iter().map(|(s, n)| (*s, *n)).collect(),
+            max: histogram.last().map_or(0, |(s, _)| *s),
+            histogram,
+        }
+    }
+}
+
+impl AddAssign for Histogram {
+    fn add_assign(&mut self, other: Self) {
+        for (count, more) in self.few.iter_mut().zip(other.few) {
+            *count += more;
+        }
+        for (steps, rays) in other.many {
+            *self.many.entry(steps).or_default() += rays;
         }
     }
 }
@@ -149,9 +174,7 @@ pub struct Tally {
 impl AddAssign for Tally {
     fn add_assign(&mut self, other: Self) {
         self.census += other.census;
-        for (steps, rays) in other.steps.0 {
-            *self.steps.0.entry(steps).or_default() += rays;
-        }
+        self.steps += other.steps;
         self.unknown_pixels += other.unknown_pixels;
         self.busy += other.busy;
     }

@@ -20,35 +20,31 @@ pub struct Shared<'a, S: Surfaces + ?Sized> {
     pub wants_color: bool,
 }
 
-/// A square of pixels.
+/// The side of a block, in pixels: the rays of a block are traced together, with all that follows from them, so that
+/// what they find does not depend on how blocks are put together to tiles.
+const BLOCK: u32 = 16;
+
+/// A square of blocks.
 #[derive(Clone, Debug)]
 pub struct Tile {
-    /// Columns and rows, in the order in which they are traced.
-    pub pixels: Vec<[u32; 2]>,
+    /// The pixels of each block: columns and rows, in the order in which they are traced.
+    pub blocks: Vec<Vec<[u32; 2]>>,
 }
 
 impl Tile {
-    /// The tiles of a picture of `size`, `side` pixels wide and high except at the right and lower edge, in rows.
+    /// The tiles of a picture of `size`, in rows; each `side` pixels wide and high, rounded up to whole blocks, except at
+    /// the right and lower edge.
     pub fn all(size: [u32; 2], side: u32) -> Vec<Self> {
-        let corners = |n: u32| (0..n).step_by(side as usize);
-        corners(size[1])
-            .flat_map(|y| corners(size[0]).map(move |x| [x, y]))
-            .map(|corner| Self::at(corner, size, side))
+        let side = side.min(size[0].max(size[1])).next_multiple_of(BLOCK);
+        corners([0, 0], size, side)
+            .map(|corner| {
+                let end = [0, 1].map(|i| size[i].min(corner[i] + side));
+                let blocks = corners(corner, end, BLOCK).map(|corner| block(corner, size));
+                Self {
+                    blocks: blocks.collect(),
+                }
+            })
             .collect()
-    }
-
-    /// The pixels along Morton's curve: each aligned run of 64 is a block of 8 x 8, each of 256 one of 16 x 16, so that
-    /// what is traced together lies together.
-    fn at(corner: [u32; 2], size: [u32; 2], side: u32) -> Self {
-        let width = side.min(size[0] - corner[0]);
-        let height = side.min(size[1] - corner[1]);
-        let square = u64::from(width.max(height).next_power_of_two());
-        let pixels = (0..square * square)
-            .map(|code| [even_bits(code), even_bits(code >> 1)])
-            .filter(|[i, j]| *i < width && *j < height)
-            .map(|[i, j]| [corner[0] + i, corner[1] + j])
-            .collect();
-        Self { pixels }
     }
 
     /// The tile's pixels, in its own order, and what they cost.
@@ -56,46 +52,67 @@ impl Tile {
         let start = Instant::now();
         let mut tally = Tally::default();
         let samples = shared.settings.samples.max(1);
-        let mut sums = vec![Sum::default(); self.pixels.len()];
-        for sample in 0..samples {
-            let rays: Vec<Ray> = self
-                .pixels
-                .iter()
-                .map(|&pixel| sample_ray(shared, pixel, sample))
-                .collect();
-            self.expose(shared, &rays, &mut sums, &mut tally);
+        let mut pixels = Vec::new();
+        for block in &self.blocks {
+            let mut sums = vec![Sum::NOTHING; block.len()];
+            for sample in 0..samples {
+                let rays: Vec<Ray> = block
+                    .iter()
+                    .map(|&pixel| sample_ray(shared, pixel, sample))
+                    .collect();
+                expose(shared, &rays, &mut sums, &mut tally);
+            }
+            tally.unknown_pixels += sums.iter().filter(|sum| sum.is_unknown).count() as u64;
+            pixels.extend(sums.iter().map(|sum| sum.pixel(samples)));
         }
-        tally.unknown_pixels = sums.iter().filter(|sum| sum.is_unknown).count() as u64;
         tally.busy = start.elapsed();
-        let pixels = sums.iter().map(|sum| sum.pixel(samples)).collect();
         (pixels, tally)
     }
+}
 
-    /// Adds one sample of each pixel.
-    fn expose<S: Surfaces + ?Sized>(
-        &self,
-        shared: &Shared<S>,
-        rays: &[Ray],
-        sums: &mut [Sum],
-        tally: &mut Tally,
-    ) {
-        let outcomes = shared.whitted.first_hits(rays, &mut tally.census);
-        for (sum, outcome) in sums.iter_mut().zip(&outcomes) {
-            sum.add(outcome);
-            tally.steps.add(outcome.steps);
+/// The upper left corners of squares of this side that cover what lies between two corners, in rows.
+fn corners(from: [u32; 2], to: [u32; 2], side: u32) -> impl Iterator<Item = [u32; 2]> {
+    let steps = move |i: usize| (from[i]..to[i]).step_by(side as usize);
+    steps(1).flat_map(move |y| steps(0).map(move |x| [x, y]))
+}
+
+/// The pixels of a block along Morton's curve, those outside of the picture left out: each run of 64 is a square of 8 x 8,
+/// so that what is traced together lies together.
+fn block(corner: [u32; 2], size: [u32; 2]) -> Vec<[u32; 2]> {
+    (0..u64::from(BLOCK * BLOCK))
+        .map(|code| {
+            [
+                corner[0] + even_bits(code),
+                corner[1] + even_bits(code >> 1),
+            ]
+        })
+        .filter(|[i, j]| *i < size[0] && *j < size[1])
+        .collect()
+}
+
+/// Adds one sample of each pixel of a block.
+fn expose<S: Surfaces + ?Sized>(
+    shared: &Shared<S>,
+    rays: &[Ray],
+    sums: &mut [Sum],
+    tally: &mut Tally,
+) {
+    let outcomes = shared.whitted.first_hits(rays, &mut tally.census);
+    for (sum, outcome) in sums.iter_mut().zip(&outcomes) {
+        sum.add(outcome);
+        tally.steps.add(outcome.steps);
+    }
+    if shared.wants_color {
+        let colors = shared.whitted.flat_colors(rays, &outcomes);
+        for (sum, color) in sums.iter_mut().zip(colors) {
+            sum.color += color;
         }
-        if shared.wants_color {
-            let colors = shared.whitted.flat_colors(rays, &outcomes);
-            for (sum, color) in sums.iter_mut().zip(colors) {
-                sum.color += color;
-            }
-        }
-        if shared.wants_beauty {
-            let light = shared.whitted.light(rays, &outcomes, &mut tally.census);
-            for (i, sum) in sums.iter_mut().enumerate() {
-                sum.beauty += light.radiance[i];
-                sum.is_unknown |= light.unknown[i];
-            }
+    }
+    if shared.wants_beauty {
+        let light = shared.whitted.light(rays, &outcomes, &mut tally.census);
+        for (i, sum) in sums.iter_mut().enumerate() {
+            sum.beauty += light.radiance[i];
+            sum.is_unknown |= light.unknown[i];
         }
     }
 }
@@ -128,42 +145,58 @@ fn even_bits(code: u64) -> u32 {
 }
 
 /// The samples of a pixel so far.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 struct Sum {
     beauty: DVec3,
     color: DVec3,
     steps: u64,
     evaluations: u64,
     is_unknown: bool,
-    nearest: Option<Outcome>,
+    /// The distance of the nearest hit; infinite where there is none.
+    depth: f64,
+    normal: DVec3,
+    part: u32,
 }
 
 impl Sum {
+    const NOTHING: Self = Self {
+        beauty: DVec3::ZERO,
+        color: DVec3::ZERO,
+        steps: 0,
+        evaluations: 0,
+        is_unknown: false,
+        depth: f64::INFINITY,
+        normal: DVec3::ZERO,
+        part: 0,
+    };
+
     fn add(&mut self, outcome: &Outcome) {
         self.steps += u64::from(outcome.steps);
         self.evaluations += u64::from(outcome.evaluations);
         self.is_unknown |= outcome.verdict == Verdict::Unknown;
-        if outcome.verdict == Verdict::Hit && self.nearest.is_none_or(|n| outcome.t < n.t) {
-            self.nearest = Some(*outcome);
+        if outcome.verdict == Verdict::Hit && outcome.t < self.depth {
+            self.depth = outcome.t;
+            self.normal = outcome.normal;
+            self.part = outcome.part;
         }
     }
 
     fn pixel(&self, samples: u32) -> Pixel {
         let n = f64::from(samples);
-        let hit = self.nearest.as_ref();
+        let is_hit = self.depth < f64::INFINITY;
         Pixel {
             beauty: self.beauty / n,
             color: self.color / n,
-            depth: hit.map_or(f64::INFINITY, |hit| hit.t),
-            normal: hit.map_or(DVec3::ZERO, |hit| hit.normal),
+            depth: self.depth,
+            normal: self.normal,
             steps: self.steps as f64 / n,
             evaluations: self.evaluations as f64 / n,
-            verdict: match (self.is_unknown, hit) {
+            verdict: match (self.is_unknown, is_hit) {
                 (true, _) => 2.0,
-                (false, Some(_)) => 1.0,
-                (false, None) => 0.0,
+                (false, true) => 1.0,
+                (false, false) => 0.0,
             },
-            object: hit.map_or(-1.0, |hit| f64::from(hit.part)),
+            object: if is_hit { f64::from(self.part) } else { -1.0 },
         }
     }
 }
@@ -176,9 +209,10 @@ mod tests {
     #[test]
     fn tiles_cover_every_pixel_once() {
         for size in [[1, 1], [7, 5], [64, 64], [130, 67], [3, 200]] {
-            for side in [1, 8, 33, 64] {
+            for side in [1, 8, 33, 64, u32::MAX] {
                 let tiles = Tile::all(size, side);
-                let pixels: Vec<_> = tiles.iter().flat_map(|t| t.pixels.clone()).collect();
+                let blocks = tiles.iter().flat_map(|tile| &tile.blocks);
+                let pixels: Vec<_> = blocks.flatten().copied().collect();
                 let distinct: HashSet<_> = pixels.iter().copied().collect();
                 assert_eq!(pixels.len(), (size[0] * size[1]) as usize);
                 assert_eq!(distinct.len(), pixels.len());
@@ -188,11 +222,30 @@ mod tests {
     }
 
     #[test]
-    fn runs_of_64_rays_are_blocks_of_8_by_8() {
-        let tile = &Tile::all([64, 64], 64)[0];
-        for run in tile.pixels.chunks(64) {
-            let blocks: HashSet<_> = run.iter().map(|p| [p[0] / 8, p[1] / 8]).collect();
-            assert_eq!(blocks.len(), 1);
+    fn runs_of_64_rays_are_squares_of_8_by_8() {
+        for run in Tile::all([64, 64], 64)[0]
+            .blocks
+            .iter()
+            .flat_map(|block| block.chunks(64))
+        {
+            let squares: HashSet<_> = run.iter().map(|p| [p[0] / 8, p[1] / 8]).collect();
+            assert_eq!((run.len(), squares.len()), (64, 1));
         }
+    }
+
+    #[test]
+    fn blocks_are_the_same_for_all_tiles() {
+        let blocks = |side| {
+            let tiles = Tile::all([130, 67], side);
+            tiles
+                .into_iter()
+                .flat_map(|tile| tile.blocks)
+                .collect::<HashSet<_>>()
+        };
+        assert!(
+            [1, 32, 33, 1000]
+                .iter()
+                .all(|side| blocks(*side) == blocks(16))
+        );
     }
 }

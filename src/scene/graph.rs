@@ -92,9 +92,19 @@ pub struct GraphBuilder {
     mark: Mark,
     known: HashMap<Op, Id>,
     shapes: Vec<Arc<Node>>,
+    /// Whether a product with the constant 0 is 0, whatever the other factor: as derivatives want it.
+    drops_zeros: bool,
 }
 
 impl GraphBuilder {
+    /// A builder for derivatives: a product with the constant 0 is 0, even times what may be infinite.
+    pub(super) fn for_derivatives() -> Self {
+        Self {
+            drops_zeros: true,
+            ..Self::default()
+        }
+    }
+
     /// An empty builder.
     pub fn new() -> Self {
         Self::default()
@@ -160,6 +170,8 @@ impl GraphBuilder {
         match (self.known(a), self.known(b)) {
             (Some(1.0), _) => b,
             (_, Some(1.0)) => a,
+            (Some(0.0), _) if self.drops_zeros => a,
+            (_, Some(0.0)) if self.drops_zeros => b,
             _ if a == b => self.push(Op::Square(a)),
             _ => self.push(Op::Multiply(a, b)),
         }
@@ -167,7 +179,8 @@ impl GraphBuilder {
 
     /// a / b
     pub fn divide(&mut self, a: Id, b: Id) -> Id {
-        if self.known(b) == Some(1.0) {
+        let is_zero = self.drops_zeros && self.known(a) == Some(0.0);
+        if is_zero || self.known(b) == Some(1.0) {
             return a;
         }
         self.push(Op::Divide(a, b))
@@ -633,14 +646,30 @@ impl Graph {
         None
     }
 
-    /// All outputs at a point.
-    pub fn values(&self, p: [f64; 3]) -> Vec<f64> {
-        let mut registers = vec![0.0; self.registers];
-        self.run(&Vec3::splat(p), &mut registers, &|i, q| {
+    /// How many outputs there are.
+    pub fn outputs(&self) -> usize {
+        self.outputs.len()
+    }
+
+    /// The first outputs at a point, at most three, and how many there are of these.
+    pub fn values(&self, p: [f64; 3]) -> ([f64; 3], usize) {
+        // Small graphs, as patterns are, need no memory of their own.
+        let mut few = [0.0; 64];
+        let mut many = Vec::new();
+        let registers = if self.registers <= few.len() {
+            &mut few[..]
+        } else {
+            many.resize(self.registers, 0.0);
+            &mut many[..]
+        };
+        self.run(&Vec3::splat(p), registers, &|i, q| {
             self.shapes[i].evaluate(q)
         });
-        (0..self.outputs.len())
-            .map(|i| self.output(&registers, i))
-            .collect()
+        let count = self.outputs.len().min(3);
+        let mut values = [0.0; 3];
+        for (i, value) in values[..count].iter_mut().enumerate() {
+            *value = self.output(registers, i);
+        }
+        (values, count)
     }
 }

@@ -19,7 +19,7 @@ impl Term<f64> {
     pub fn at(&self, p: [f64; 3]) -> f64 {
         match self {
             Self::Constant(x) => *x,
-            Self::Pattern(graph) => graph.values(p)[0],
+            Self::Pattern(graph) => graph.values(p).0[0],
         }
     }
 
@@ -34,10 +34,9 @@ impl Term<DVec3> {
     pub fn at(&self, p: [f64; 3]) -> DVec3 {
         match self {
             Self::Constant(c) => *c,
-            Self::Pattern(graph) => match graph.values(p)[..] {
-                [r, g, b] => DVec3::new(r, g, b),
-                [grey, ..] => DVec3::splat(grey),
-                [] => DVec3::ZERO,
+            Self::Pattern(graph) => match graph.values(p) {
+                ([r, g, b], 3) => DVec3::new(r, g, b),
+                ([grey, ..], _) => DVec3::splat(grey),
             },
         }
     }

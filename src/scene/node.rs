@@ -1,7 +1,7 @@
 //! The tree of shapes. A node cannot be made without its certificates.
 
 use super::derive::{lipschitz_of_graph, range_of_graph};
-use super::symbol::{asked, record};
+use super::symbol::{asked, gradient, record};
 use super::{Fault, Graph, Material};
 use crate::catalogue::{
     AnyModifier, AnyPrimitive, Bounds, Class, Combination, Modifier, Operation, Primitive,
@@ -536,6 +536,14 @@ impl Node {
     pub fn lipschitz_within(&self, centre: [f64; 3], radius: f64) -> f64 {
         self.lipschitz_over(Bounds::new(centre, centre).inflate(radius))
     }
+
+    /// The gradient of the field as a graph with three outputs; none for what is too large to be worth it.
+    pub fn gradient(&self) -> Option<Graph> {
+        (self.size <= Self::MAX_GRADIENT).then(|| gradient(self))
+    }
+
+    /// The largest size of a shape whose gradient becomes a graph: its graph has several times as many operations.
+    const MAX_GRADIENT: u64 = 512;
 
     /// The field at `p`, by walking the tree: slow, and the measure of what is compiled.
     pub fn evaluate<N: Number>(&self, p: &Vec3<N>) -> N {

@@ -2,7 +2,7 @@
 
 use super::{Graph, GraphBuilder, Id, Node};
 use crate::catalogue::Function;
-use crate::num::{Lattice, Number, Vec3};
+use crate::num::{Dual, Lattice, Number, Vec3};
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::Arc;
@@ -22,6 +22,16 @@ pub(super) fn record(body: impl FnOnce(&Vec3<Symbol>) -> Symbol) -> Graph {
     let [x, y, z] = BUILDER.with_borrow_mut(GraphBuilder::point).map(Symbol);
     let Symbol(output) = body(&Vec3::new(x, y, z));
     BUILDER.replace(outer).finish(&[output])
+}
+
+/// The gradient of the field of `node`, as a graph with three outputs: the field runs once with dual numbers of symbols.
+pub(super) fn gradient(node: &Node) -> Graph {
+    let outer = BUILDER.replace(GraphBuilder::for_derivatives());
+    let [x, y, z] = BUILDER.with_borrow_mut(GraphBuilder::point).map(Symbol);
+    let variable = |symbol, axis| Dual::<Symbol, 3>::variable(symbol, axis);
+    let field = node.evaluate(&Vec3::new(variable(x, 0), variable(y, 1), variable(z, 2)));
+    let outputs = field.partial.map(|Symbol(id)| id);
+    BUILDER.replace(outer).finish(&outputs)
 }
 
 /// The field of `shape` at the point `p`.

@@ -4,6 +4,7 @@
 //! Sources: Lambert 1760; Phong 1975; Blinn 1977.
 
 use super::Surface;
+use crate::num::Number;
 use glam::DVec3;
 
 /// What the surface shows without any light.
@@ -50,9 +51,18 @@ const FAINTEST_LOG: f64 = -36.7;
 fn lobe(cosine: f64, exponent: f64) -> f64 {
     // ln c <= c - 1 bounds the power from above: most points need none, a tenth of the time of three spheres.
     if cosine > 0.0 && exponent * (cosine - 1.0) > FAINTEST_LOG {
-        libm::pow(cosine.min(1.0), exponent)
+        power(cosine.min(1.0), exponent)
     } else {
         0.0
+    }
+}
+
+/// `x^exponent`; for whole exponents, as most are, by a few multiplications.
+fn power(x: f64, exponent: f64) -> f64 {
+    if exponent <= 1024.0 && exponent.fract() == 0.0 {
+        Number::powi(x, exponent as i32)
+    } else {
+        libm::pow(x, exponent)
     }
 }
 

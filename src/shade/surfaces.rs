@@ -19,6 +19,12 @@ pub trait Surfaces: Sync {
 
     /// Every material that some part shows.
     fn materials(&self) -> &[Arc<Material>];
+
+    /// The number in [`Surfaces::materials`] of the material of `part`, if that is its only one and is the same at all of
+    /// its points, or was painted on in the coordinates of the scene.
+    fn sole(&self, _part: u32) -> Option<usize> {
+        None
+    }
 }
 
 impl Surfaces for World {
@@ -36,5 +42,9 @@ impl Surfaces for World {
 
     fn materials(&self) -> &[Arc<Material>] {
         Self::materials(self)
+    }
+
+    fn sole(&self, part: u32) -> Option<usize> {
+        Self::sole(self, part)
     }
 }

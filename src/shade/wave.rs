@@ -30,17 +30,17 @@ pub struct Wave {
 }
 
 impl Wave {
-    /// The wave of camera rays, in empty space.
-    pub fn from_camera(rays: &[Ray]) -> Self {
-        let path = |sample| Path {
+    /// The wave of these of the camera's rays, by number, in empty space.
+    pub fn from_camera(rays: &[Ray], samples: &[usize]) -> Self {
+        let path = |sample: &usize| Path {
             weight: DVec3::ONE,
-            sample,
+            sample: *sample,
             media: Media::default(),
         };
         Self {
             depth: 0,
-            rays: rays.to_vec(),
-            paths: (0..rays.len()).map(path).collect(),
+            rays: samples.iter().map(|sample| rays[*sample]).collect(),
+            paths: samples.iter().map(path).collect(),
         }
     }
 }

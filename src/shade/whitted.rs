@@ -15,9 +15,10 @@ use super::meeting::{Meeting, Onward};
 use super::shadow::{ShadowRays, passages};
 use super::wave::{Path, Wave, Waves};
 use super::{Census, Features, Surface, Surfaces, offset, phong, sky};
-use crate::scene::{Fog, Scene, Sky};
+use crate::scene::{Fog, Material, Scene, Sky};
 use crate::trace::{Outcome, Ray, Verdict, Visibility};
 use glam::DVec3;
+use std::sync::Arc;
 
 /// Rays whose weight is below this in all channels are left out: half a step of an 8-bit picture.
 pub const FAINTEST: f64 = 1.0 / 512.0;
@@ -30,6 +31,8 @@ pub struct Whitted<'a, S: Surfaces + ?Sized> {
     sky: Sky,
     fog: Option<Fog>,
     depth: u32,
+    /// The surfaces of the materials that are the same at all points, by their numbers.
+    plain: Vec<Option<Surface>>,
 }
 
 /// What the eye receives along its rays.
@@ -60,6 +63,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             sky: scene.sky,
             fog: scene.fog.filter(|_| features.fog),
             depth: scene.settings.depth,
+            plain: surfaces.materials().iter().map(plain_surface).collect(),
         }
     }
 
@@ -111,7 +115,20 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             radiance: vec![DVec3::ZERO; rays.len()],
             unknown: vec![false; rays.len()],
         };
-        let mut waiting = self.shade(Wave::from_camera(rays), outcomes, &mut light, census);
+        // Rays that met nothing see the sky, unless fog lies before it.
+        let is_sky = |outcome: &Outcome| outcome.verdict == Verdict::Miss && self.fog.is_none();
+        let mut samples = Vec::with_capacity(rays.len());
+        let mut met = Vec::with_capacity(rays.len());
+        for (sample, outcome) in outcomes.iter().enumerate() {
+            if is_sky(outcome) {
+                light.radiance[sample] = sky::radiance(&self.sky, rays[sample].direction);
+            } else {
+                samples.push(sample);
+                met.push(*outcome);
+            }
+        }
+        let wave = Wave::from_camera(rays, &samples);
+        let mut waiting = self.shade(wave, &met, &mut light, census);
         while let Some(wave) = waiting.pop() {
             let outcomes = census.timed(|t| &mut t.secondary, || self.nearest(&wave.rays));
             for outcome in &outcomes {
@@ -166,7 +183,12 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         if outcome.verdict != Verdict::Hit {
             return None;
         }
-        Surface::mixed(&self.surfaces.paints(outcome.part, outcome.point))
+        let Some(number) = self.surfaces.sole(outcome.part) else {
+            return Surface::mixed(&self.surfaces.paints(outcome.part, outcome.point));
+        };
+        let material = &self.surfaces.materials()[number];
+        let patterned = || Surface::new(material, outcome.point.to_array());
+        Some(self.plain[number].unwrap_or_else(patterned))
     }
 
     /// Weakens a path over `distance`, and gives the light that fog adds to it on the way.
@@ -274,4 +296,9 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         }
         Some(weight)
     }
+}
+
+/// The surface of a material that is the same at all points.
+fn plain_surface(material: &Arc<Material>) -> Option<Surface> {
+    (!material.has_patterns()).then(|| Surface::new(material, [0.0; 3]))
 }

@@ -41,44 +41,66 @@ impl Ball {
     /// The geometric form with a discriminant that does not cancel: h = r^2 - |q - (q.d) d|^2 with q the vector from
     /// the centre to the origin. Source: Haines et al., Ray Tracing Gems chapter 7.
     pub fn enter(&self, ray: &Ray) -> Option<Crossing> {
-        let (near, far, half_chord) = self.crossings(ray)?;
-        let size = (ray.origin - self.centre).length() + self.radius;
+        let (t, error) = self.crossing(ray.origin, ray.direction);
+        (t < f64::INFINITY).then_some(Crossing { t, error })
+    }
+
+    /// Whether a line may meet the sphere: false only where it surely does not. For lanes.
+    #[inline(always)]
+    pub(super) fn may_meet(&self, origin: DVec3, direction: DVec3) -> bool {
+        let q = origin - self.centre;
+        let foot = q - direction * q.dot(direction);
+        let rounding = 64.0 * U * q.dot(q);
+        let radius = self.radius * self.radius * (1.0 + 1e-9) + rounding;
+        foot.dot(foot) <= radius
+    }
+
+    /// [`Ball::enter`] without branches, for lanes: the distance, infinite where there is no crossing, and its error.
+    #[inline(always)]
+    pub(super) fn crossing(&self, origin: DVec3, direction: DVec3) -> (f64, f64) {
+        let (near, far, half_chord) = self.roots(origin, direction);
+        let size = (origin - self.centre).length() + self.radius;
         // The foot of the perpendicular is known to a few roundings of `size`, its square to a few of size * radius.
         // Where the ray is tangent, half the chord itself is known to the root of that only.
         let place = 8.0 * U * size;
-        let chord = half_chord.max((2.0 * self.radius * place).sqrt());
+        let tangent = (2.0 * self.radius * place).sqrt();
+        let chord = if half_chord > tangent {
+            half_chord
+        } else {
+            tangent
+        };
         let error = place * (1.0 + self.radius / chord);
         let on_surface = 16.0 * U * size;
         let t = if near > on_surface { near } else { far };
-        (t > on_surface && t.is_finite()).then_some(Crossing { t, error })
+        // Also where the roots are not numbers.
+        let is_ahead = t > on_surface;
+        (if is_ahead { t } else { f64::INFINITY }, error)
     }
 
-    /// Both crossings in order, and half their distance, where the line meets the sphere.
-    fn crossings(&self, ray: &Ray) -> Option<(f64, f64, f64)> {
-        let q = ray.origin - self.centre;
-        let b = q.dot(ray.direction);
-        let foot = q - ray.direction * b;
+    /// Both crossings of the line in order, and half their distance; not numbers where the line does not meet the sphere.
+    #[inline(always)]
+    fn roots(&self, origin: DVec3, direction: DVec3) -> (f64, f64, f64) {
+        let q = origin - self.centre;
+        let b = q.dot(direction);
+        let foot = q - direction * b;
         // (r - |foot|)(r + |foot|) loses nothing where they are close.
         let distance = foot.length();
         let h = (self.radius - distance) * (self.radius + distance);
-        if h.is_nan() || h < 0.0 {
-            return None;
-        }
         let half_chord = h.sqrt();
         // The root of larger size by a sum that does not cancel, the other by their product |q|^2 - r^2.
         let large = -b - half_chord.copysign(b);
         let length = q.length();
-        let small = (length - self.radius) * (length + self.radius) / large;
-        let (near, far) = if b > 0.0 {
-            (large, small)
-        } else {
-            (small, large)
-        };
-        if large == 0.0 {
-            Some((0.0, 0.0, 0.0))
-        } else {
-            Some((near, far, half_chord))
-        }
+        let product = (length - self.radius) * (length + self.radius);
+        let small = if large == 0.0 { 0.0 } else { product / large };
+        let near = if b > 0.0 { large } else { small };
+        let far = if b > 0.0 { small } else { large };
+        (near, far, half_chord)
+    }
+
+    /// Both crossings in order, where the line meets the sphere.
+    fn crossings(&self, ray: &Ray) -> Option<(f64, f64)> {
+        let (near, far, half_chord) = self.roots(ray.origin, ray.direction);
+        (half_chord >= 0.0).then_some((near, far))
     }
 }
 
@@ -96,7 +118,7 @@ pub fn sphere_geometric(ray: &Ray, ball: &Ball) -> Option<(f64, f64)> {
 /// The distances at which a line meets a sphere, by the algebraic form of the textbook: the roots of
 /// t^2 + 2 b t + c = 0, b = q.d, c = |q|^2 - r^2, with the stable quadratic formula and a stable discriminant.
 pub fn sphere_algebraic(ray: &Ray, ball: &Ball) -> Option<(f64, f64)> {
-    ball.crossings(ray).map(|(near, far, _)| (near, far))
+    ball.crossings(ray)
 }
 
 /// A half-space `normal . p < offset`.
@@ -111,15 +133,20 @@ pub struct HalfSpace {
 impl HalfSpace {
     /// The crossing in front of the ray's origin; a parallel ray, and one that starts on the plane, has none.
     pub fn enter(&self, ray: &Ray) -> Option<Crossing> {
-        let slope = self.normal.dot(ray.direction);
-        let height = self.normal.dot(ray.origin) - self.offset;
-        let noise = 4.0 * U * (ray.origin.abs().dot(self.normal.abs()) + self.offset.abs());
-        if slope == 0.0 || height.abs() <= noise {
-            return None;
-        }
+        let (t, error) = self.crossing(ray.origin, ray.direction);
+        (t < f64::INFINITY).then_some(Crossing { t, error })
+    }
+
+    /// [`HalfSpace::enter`] without branches, for lanes: the distance, infinite where there is no crossing, and its error.
+    #[inline(always)]
+    pub(super) fn crossing(&self, origin: DVec3, direction: DVec3) -> (f64, f64) {
+        let slope = self.normal.dot(direction);
+        let height = self.normal.dot(origin) - self.offset;
+        let noise = 4.0 * U * (origin.abs().dot(self.normal.abs()) + self.offset.abs());
         let t = -height / slope;
         let error = noise / slope.abs() + 4.0 * U * t.abs();
-        (t > 0.0 && t.is_finite()).then_some(Crossing { t, error })
+        let is_ahead = t > 0.0 && height.abs() > noise;
+        (if is_ahead { t } else { f64::INFINITY }, error)
     }
 }
 
@@ -150,12 +177,18 @@ impl Facet {
     /// The crossing in front of the ray's origin: where the ray meets the plane, if that point is on the same side of
     /// every edge. The border belongs to the triangle, up to rounding, so that nothing leaks between neighbours.
     pub fn enter(&self, ray: &Ray) -> Option<Crossing> {
+        self.crossing(ray.origin, ray.direction)
+    }
+
+    /// [`Facet::enter`] for a half-line.
+    pub(super) fn crossing(&self, origin: DVec3, direction: DVec3) -> Option<Crossing> {
         let plane = HalfSpace {
             normal: self.normal,
             offset: self.normal.dot(self.corners[0]),
         };
-        let crossing = plane.enter(ray)?;
-        let p = ray.at(crossing.t);
+        let (t, error) = plane.crossing(origin, direction);
+        let crossing = (t < f64::INFINITY).then_some(Crossing { t, error })?;
+        let p = origin + direction * t;
         let [a, b, c] = self.corners;
         let is_inside = [(a, b), (b, c), (c, a)].iter().all(|(from, to)| {
             let (edge, arm) = (*to - *from, p - *from);

@@ -4,6 +4,7 @@
 //! within a few per cent for the even distributions that scripts make.
 
 use super::Ray;
+use super::beam::Beam;
 use crate::catalogue::Bounds;
 use glam::DVec3;
 
@@ -120,6 +121,35 @@ impl Hierarchy {
                     stack[height] = child as u32;
                     height += 1;
                 }
+            }
+        }
+    }
+}
+
+impl Hierarchy {
+    /// Calls `visit` with every part in a leaf whose box the beam meets before `limit`.
+    pub fn visit_beam(&self, beam: &Beam, limit: f64, mut visit: impl FnMut(u32)) {
+        if self.branches.is_empty() {
+            return;
+        }
+        let mut stack = [0u32; 64];
+        let mut height = 1;
+        while height > 0 {
+            height -= 1;
+            let here = stack[height] as usize;
+            let branch = &self.branches[here];
+            if beam.enters(&branch.bounds, limit).is_none() {
+                continue;
+            }
+            if branch.count > 0 {
+                let start = branch.start as usize;
+                let parts = &self.order[start..start + branch.count as usize];
+                parts.iter().for_each(|part| visit(*part));
+                continue;
+            }
+            for child in [branch.start, here as u32 + 1] {
+                stack[height] = child;
+                height += 1;
             }
         }
     }

@@ -5,15 +5,20 @@
 //! (`method`), so its result depends neither on the packet it rides in nor on the number of threads.
 
 pub mod analytic;
+mod beam;
+mod bundle;
 mod hierarchy;
 mod join;
 mod march;
 mod method;
+mod newton;
 mod outcome;
 mod part;
 mod ray;
 mod scene_tracer;
+mod stride;
 mod survey;
+mod sweep;
 mod world;
 
 pub use outcome::{Occlusion, Outcome, Verdict};

@@ -46,6 +46,20 @@ pub struct Outcome {
     pub evaluations: u32,
 }
 
+impl Outcome {
+    /// A miss that took nothing.
+    pub const NOTHING: Self = Self {
+        verdict: Verdict::Miss,
+        t: f64::INFINITY,
+        error: 0.0,
+        point: DVec3::ZERO,
+        normal: DVec3::ZERO,
+        part: 0,
+        steps: 0,
+        evaluations: 0,
+    };
+}
+
 /// What a shadow ray finds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Occlusion {

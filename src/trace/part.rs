@@ -4,7 +4,9 @@ use super::analytic::{Ball, Facet, HalfSpace};
 use super::method::{Demands, Reach};
 use crate::catalogue::Modifier;
 use crate::catalogue::{AnyPrimitive, Bounds, Combination, Operation, with_modifier};
-use crate::field::{Closure, Level, compile, compile_convex, compile_wide};
+use crate::field::{
+    Closure, Level, Thicket, Walked, compile, compile_convex, compile_graph, compile_wide,
+};
 use crate::num::{Dual, F64x32, Interval};
 use crate::scene::{Fault, FieldShape, Graph, Material, Node, Parts, Shadow, Shape};
 use glam::DVec3;
@@ -57,6 +59,12 @@ pub struct Marched {
     ranges: OnceLock<Closure<Dual<Interval, 1>>>,
     /// The field and its gradient.
     pub gradient: Closure<Dual<f64, 3>>,
+    /// The field and its derivative along a direction over wide lanes, for gradients; none for fields with graphs.
+    pub gradient_wide: Option<Closure<Dual<F64x32, 1>>>,
+    /// The gradient of a field with graphs over wide lanes, once it was asked for; none where that would be too large.
+    gradient_graph: OnceLock<Option<Walked<F64x32>>>,
+    /// The combination that can be thinned out, if the field is one.
+    pub thicket: Option<Thicket>,
 }
 
 /// Closures for a value with its derivative along a ray.
@@ -155,7 +163,16 @@ impl Marched {
             wide: compile_convex(node, level),
             single: compile_convex(node, Level::Baseline),
         });
+        let gradient_wide =
+            (demands.lanes && !node.has_graph()).then(|| compile_convex(node, level));
+        let leaf_constant = |leaf: &Node| leaf.lipschitz_over(region);
+        let thicket = demands
+            .lanes
+            .then(|| Thicket::new(node, level, &leaf_constant));
         Ok(Self {
+            gradient_wide,
+            gradient_graph: OnceLock::new(),
+            thicket: thicket.flatten(),
             region,
             size,
             lipschitz,
@@ -172,6 +189,14 @@ impl Marched {
     /// The ranges of the field and of its derivative along a ray, compiled when they are first asked for.
     pub fn ranges(&self) -> &Closure<Dual<Interval, 1>> {
         self.ranges.get_or_init(|| compile(&self.node))
+    }
+}
+
+impl Marched {
+    /// The gradient of the field of `node`, which is this part's, over wide lanes.
+    pub fn gradient_graph(&self, node: &Node, level: Level) -> Option<&Walked<F64x32>> {
+        let graph = || Some(compile_graph(&Arc::new(node.gradient()?), level));
+        self.gradient_graph.get_or_init(graph).as_ref()
     }
 }
 

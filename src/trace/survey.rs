@@ -2,7 +2,7 @@
 
 use super::Ray;
 use super::march::{Job, Walked};
-use super::method::{Resolver, Walk};
+use super::method::{Ending, Resolver, Segment, Walk};
 use super::part::Marched;
 use crate::num::{Dual, Interval, Vec3};
 
@@ -24,13 +24,34 @@ pub(super) fn resolved(
         let Some(job) = jobs.iter().find(|job| job.ray == open.ray) else {
             continue;
         };
-        let again = walk::<Resolver>(part, &rays[job.ray as usize], job);
-        let steps = open.ending.steps + again.ending.steps;
-        open.evaluations += again.evaluations;
-        open.ending = again.ending;
-        open.ending.steps = steps;
+        let ray = &rays[job.ray as usize];
+        let (ending, evaluations) = decided(part, ray, job.segment, open.ending);
+        open.evaluations += evaluations;
+        open.ending = ending;
     }
     walked
+}
+
+/// The end of a walk on `segment` that could not tell, decided by ranges; others as they are. And how many evaluations
+/// that took.
+pub(super) fn decided(
+    part: &Marched,
+    ray: &Ray,
+    segment: Segment,
+    ending: Ending,
+) -> (Ending, u32) {
+    if !ending.is_open() {
+        return (ending, 0);
+    }
+    let again = walk::<Resolver>(part, ray, &Job { ray: 0, segment });
+    let steps = ending.steps + again.ending.steps;
+    (
+        Ending {
+            steps,
+            ..again.ending
+        },
+        again.evaluations,
+    )
 }
 
 /// Walks one ray to its end.

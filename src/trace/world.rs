@@ -1,5 +1,6 @@
 //! The world: a scene that is ready to be traced.
 
+use super::bundle::Bundle;
 use super::hierarchy::{Hierarchy, clip};
 use super::join::joined;
 use super::march::{Job, Walked, march};
@@ -9,6 +10,7 @@ use super::method::{
 };
 use super::part::{Marched, Part, PartKind, flatten};
 use super::survey::{resolved, survey};
+use super::sweep::Question;
 use super::{Occlusion, Outcome, Ray, Verdict};
 use crate::field::{Level, normal, shares};
 use crate::scene::{Fault, Material, Method, Node, Scene, Settings, Shadow};
@@ -38,15 +40,19 @@ pub struct Paint<'a> {
 
 /// A scene that is ready to be traced.
 pub struct World {
-    parts: Vec<Part>,
-    hierarchy: Hierarchy,
+    pub(super) parts: Vec<Part>,
+    pub(super) hierarchy: Hierarchy,
     /// Parts without finite bounds.
-    endless: Vec<u32>,
+    pub(super) endless: Vec<u32>,
     materials: Vec<Arc<Material>>,
+    /// For each part what [`World::sole`] says.
+    sole: Vec<Option<u32>>,
     default: Arc<Material>,
-    settings: Settings,
+    pub(super) settings: Settings,
     /// How far a ray without end is followed through shapes without end.
-    horizon: f64,
+    pub(super) horizon: f64,
+    /// The instructions that lanes use.
+    pub(super) level: Level,
 }
 
 /// What a ray knows while it is traced.
@@ -84,6 +90,14 @@ impl Search {
             self.best = Some((ending, part));
         }
     }
+}
+
+/// Whether a shape has its paint from the outside alone.
+fn is_painted_whole(node: &Node) -> bool {
+    fn is_bare(node: &Node) -> bool {
+        node.paint().is_none() && node.children().iter().all(|child| is_bare(child))
+    }
+    node.paint().is_some() && node.children().iter().all(|child| is_bare(child))
 }
 
 impl World {
@@ -124,19 +138,32 @@ impl World {
         let reach = boxes.iter().map(|(_, b)| b.radius()).fold(0.0, f64::max);
         let default = Arc::new(Material::default());
         let mut materials: Vec<Arc<Material>> = Vec::new();
-        for material in parts.iter().flat_map(|part| &part.materials) {
-            let material = material.as_ref().unwrap_or(&default);
-            if !materials.iter().any(|m| Arc::ptr_eq(m, material)) {
-                materials.push(material.clone());
+        let mut numbers: BTreeMap<*const Material, u32> = BTreeMap::new();
+        let mut sole = Vec::with_capacity(parts.len());
+        for part in &parts {
+            let mut number = None;
+            for material in &part.materials {
+                let material = material.as_ref().unwrap_or(&default);
+                number = Some(*numbers.entry(Arc::as_ptr(material)).or_insert_with(|| {
+                    materials.push(material.clone());
+                    materials.len() as u32 - 1
+                }));
             }
+            let is_sole = |n: &u32| {
+                let is_same = !materials[*n as usize].has_patterns();
+                part.materials.len() == 1 && (is_same || is_painted_whole(&part.node))
+            };
+            sole.push(number.filter(is_sole));
         }
         Self {
             hierarchy: Hierarchy::new(&boxes),
             endless,
             materials,
+            sole,
             default,
             settings,
             horizon: reach,
+            level: Level::best(),
             parts,
         }
     }
@@ -144,6 +171,20 @@ impl World {
     /// The first surface on each ray.
     pub fn nearest(&self, rays: &[Ray], visibility: Visibility) -> Vec<Outcome> {
         let is_seen = |part: &Part| visibility == Visibility::All || part.shadow != Shadow::None;
+        if self.settings.method == Method::Auto {
+            let mut outcomes = vec![Outcome::NOTHING; rays.len()];
+            let question = Question {
+                is_seen: &is_seen,
+                any: false,
+            };
+            self.sweep(rays, &question, &mut |bundle, numbers| {
+                for (i, number) in numbers.iter().enumerate() {
+                    let number = *number as usize;
+                    outcomes[number] = self.found(bundle, i, &rays[number]);
+                }
+            });
+            return outcomes;
+        }
         let searches = self.search(rays, &is_seen, false);
         rays.iter()
             .zip(&searches)
@@ -153,6 +194,28 @@ impl World {
 
     /// Whether any opaque surface lies on each ray; parts whose shadow is tinted or none are passed over.
     pub fn occluded(&self, rays: &[Ray]) -> Vec<Occlusion> {
+        if self.settings.method == Method::Auto {
+            let nothing = Occlusion {
+                verdict: Verdict::Miss,
+                steps: 0,
+                evaluations: 0,
+            };
+            let mut occlusions = vec![nothing; rays.len()];
+            let question = Question {
+                is_seen: &|part: &Part| part.shadow == Shadow::Opaque,
+                any: true,
+            };
+            self.sweep(rays, &question, &mut |bundle, numbers| {
+                for (i, number) in numbers.iter().enumerate() {
+                    occlusions[*number as usize] = Occlusion {
+                        verdict: bundle.any_verdict(i),
+                        steps: bundle.steps[i],
+                        evaluations: bundle.evaluations[i],
+                    };
+                }
+            });
+            return occlusions;
+        }
         let searches = self.search(rays, &|part: &Part| part.shadow == Shadow::Opaque, true);
         let verdict = |search: &Search| match (search.best, search.unknown) {
             (Some(_), _) => Verdict::Hit,
@@ -201,6 +264,12 @@ impl World {
                 point: s.point,
             })
             .collect()
+    }
+
+    /// The number in [`World::materials`] of the material of `part`, if that is its only one and is the same at all of its
+    /// points, or was painted on in the coordinates of the scene.
+    pub fn sole(&self, part: u32) -> Option<usize> {
+        self.sole[part as usize].map(|number| number as usize)
     }
 
     /// Every material that some part shows.
@@ -409,6 +478,24 @@ impl World {
             },
             _ => nothing,
         }
+    }
+
+    /// The outcome of a ray of a bundle, with its normal.
+    fn found(&self, bundle: &Bundle, number: usize, ray: &Ray) -> Outcome {
+        let mut outcome = bundle.outcome(number, ray);
+        if outcome.verdict == Verdict::Hit {
+            let gradient = DVec3::from_array([0, 1, 2].map(|axis| bundle.gradient[axis][number]));
+            outcome.normal = gradient.try_normalize().unwrap_or_else(|| {
+                let ending = Ending {
+                    verdict: Verdict::Hit,
+                    t: outcome.t,
+                    error: outcome.error,
+                    steps: 0,
+                };
+                self.normal(outcome.part, ray, outcome.point, ending)
+            });
+        }
+        outcome
     }
 
     fn normal(&self, part: u32, ray: &Ray, point: DVec3, ending: Ending) -> DVec3 {

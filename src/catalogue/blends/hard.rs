@@ -16,6 +16,10 @@ impl Blend for Hard {
         a.min(b)
     }
 
+    fn width(&self) -> Option<f64> {
+        Some(0.0)
+    }
+
     fn is_hard(&self) -> bool {
         true
     }

@@ -27,6 +27,10 @@ impl Blend for Smooth {
         compact_reach(level, n, 0.25 * self.k, self.k)
     }
 
+    fn width(&self) -> Option<f64> {
+        Some(self.k)
+    }
+
     fn is_hard(&self) -> bool {
         self.k == 0.0
     }

@@ -214,6 +214,29 @@ impl Certified {
     }
 }
 
+impl Certified {
+    /// A walk that goes on from what another one knows: its last sample that was not zero, if there is one, the distance
+    /// where the next one is due, and how it came there.
+    pub fn resume(
+        segment: Segment,
+        last: Option<(f64, f64)>,
+        t: f64,
+        has_departed: bool,
+        steps: u32,
+        far: f64,
+    ) -> Self {
+        let last = last.map(|(t, value)| Sample { t, value });
+        Self {
+            phase: Phase::Marching(last),
+            t,
+            steps,
+            has_departed,
+            far,
+            ..Self::begin(segment)
+        }
+    }
+}
+
 impl Walk for Certified {
     const NEEDS_SLOPE: bool = false;
 

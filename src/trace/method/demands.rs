@@ -20,6 +20,8 @@ pub struct Demands {
     pub closed_forms: bool,
     /// Whether derivatives along rays are wanted of convex fields.
     pub slopes: bool,
+    /// Whether rays are walked in lanes, through combinations that are thinned out.
+    pub lanes: bool,
     /// Where rays are followed.
     pub reach: Reach,
 }
@@ -37,6 +39,7 @@ impl Demands {
         };
         Self {
             closed_forms: method == Method::Auto,
+            lanes: method == Method::Auto,
             slopes: matches!(method, Method::Auto | Method::Convex),
             reach,
         }

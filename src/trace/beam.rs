@@ -1,0 +1,210 @@
+//! Beams: rays that are traced together, and what surely holds all of them.
+
+use super::Ray;
+use crate::catalogue::Bounds;
+use glam::DVec3;
+
+/// What holds a number of rays: ranges of their origins and directions, and a cone about their mean.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beam {
+    origins: [DVec3; 2],
+    directions: [DVec3; 2],
+    /// The mean ray: its direction is not normalised.
+    origin: DVec3,
+    direction: DVec3,
+    /// No origin is farther from the mean one.
+    width: f64,
+    /// No direction differs by more from the mean one.
+    spread: f64,
+}
+
+impl Beam {
+    /// The beam of one or more rays.
+    pub fn around<'a>(rays: impl Iterator<Item = &'a Ray> + Clone) -> Self {
+        let mut origins = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        let mut directions = origins;
+        for ray in rays.clone() {
+            origins = [origins[0].min(ray.origin), origins[1].max(ray.origin)];
+            directions = [
+                directions[0].min(ray.direction),
+                directions[1].max(ray.direction),
+            ];
+        }
+        let origin = 0.5 * (origins[0] + origins[1]);
+        let direction = 0.5 * (directions[0] + directions[1]);
+        let (mut width, mut spread) = (0.0f64, 0.0f64);
+        for ray in rays {
+            width = width.max(ray.origin.distance_squared(origin));
+            spread = spread.max(ray.direction.distance_squared(direction));
+        }
+        // Room for the rounding of the square roots and of places along the rays.
+        let room = 1.0 + 1e-12;
+        Self {
+            origins,
+            directions,
+            origin,
+            direction,
+            width: width.sqrt() * room,
+            spread: spread.sqrt() * room,
+        }
+    }
+
+    /// Where the first of the rays may enter a box, if one of them may before `limit`. Source: interval arithmetic as in
+    /// Boulos, Wald and Shirley 2006.
+    pub fn enters(&self, bounds: &Bounds, limit: f64) -> Option<f64> {
+        let (mut enter, mut leave) = (0.0f64, limit);
+        for axis in 0..3 {
+            let (near, far) = self.within(axis, bounds.low[axis], bounds.high[axis]);
+            enter = enter.max(near * (1.0 - 1e-12));
+            leave = leave.min(far * (1.0 + 1e-12));
+        }
+        (enter <= leave).then_some(enter)
+    }
+
+    /// Where rays may come between two planes across an axis, and where all have left.
+    fn within(&self, axis: usize, low: f64, high: f64) -> (f64, f64) {
+        let (first, last) = (self.origins[0][axis], self.origins[1][axis]);
+        let (slowest, fastest) = (self.directions[0][axis], self.directions[1][axis]);
+        // Rays that rise come in at `low` and leave at `high`, rays that fall the other way round.
+        let near = if low > last {
+            quotient(low - last, fastest)
+        } else if high < first {
+            quotient(first - high, -slowest)
+        } else {
+            0.0
+        };
+        let far = if slowest > 0.0 {
+            (high - first) / if high > first { slowest } else { fastest }
+        } else if fastest < 0.0 {
+            (last - low) / if last > low { -fastest } else { -slowest }
+        } else {
+            f64::INFINITY
+        };
+        (near, far)
+    }
+
+    /// A ball that holds every place of the rays from distance `from` to `to`.
+    pub fn ball(&self, from: f64, to: f64) -> (DVec3, f64) {
+        let centre = self.origin + self.direction * (0.5 * (from + to));
+        let across = self.width + self.spread * to;
+        let along = 0.5 * (to - from) * self.direction.length();
+        let rounding = 8.0 * f64::EPSILON * (self.origin.abs().max_element() + to);
+        (centre, (across + along) * (1.0 + 1e-12) + rounding)
+    }
+
+    /// The half of the beam that a ray belongs to, if it is cut across where its rays differ most over the distance
+    /// `reach`: the first or not.
+    pub fn divide(&self, reach: f64) -> impl Fn(&Ray) -> bool {
+        let differ = |ends: &[DVec3; 2], scale: f64| {
+            let size = (ends[1] - ends[0]) * scale;
+            let axis = size
+                .to_array()
+                .iter()
+                .enumerate()
+                .fold(
+                    0,
+                    |best, (axis, x)| {
+                        if *x > size[best] { axis } else { best }
+                    },
+                );
+            (axis, size[axis], 0.5 * (ends[0] + ends[1])[axis])
+        };
+        let origins = differ(&self.origins, 1.0);
+        let directions = differ(&self.directions, reach);
+        let by_origin = origins.1 >= directions.1;
+        move |ray| {
+            if by_origin {
+                ray.origin[origins.0] < origins.2
+            } else {
+                ray.direction[directions.0] < directions.2
+            }
+        }
+    }
+
+    /// How far apart the rays are at distance `t`: the radius of a cut through the beam.
+    pub fn radius(&self, t: f64) -> f64 {
+        self.width + self.spread * t
+    }
+}
+
+/// The time that a way takes at a speed; infinite where there is no speed in this direction.
+fn quotient(way: f64, speed: f64) -> f64 {
+    if speed > 0.0 {
+        way / speed
+    } else {
+        f64::INFINITY
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trace::Footprint;
+    use crate::trace::hierarchy::clip;
+
+    /// Numbers in [0, 1) from a counter. Source: the finalizer of MurmurHash3.
+    fn random(i: u64) -> f64 {
+        let mut z = i
+            .wrapping_add(0x9e37_79b9_7f4a_7c15)
+            .wrapping_mul(0xff51_afd7_ed55_8ccd);
+        z = (z ^ (z >> 33)).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
+        ((z ^ (z >> 33)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn rays(seed: u64) -> Vec<Ray> {
+        let place = |k: u64| {
+            let x = |j: u64| 2.0 * random(seed * 4096 + k * 8 + j) - 1.0;
+            DVec3::new(x(0), x(1), x(2))
+        };
+        let spread = random(seed).powi(3);
+        let ray = |k: u64| Ray {
+            origin: 3.0 * place(0) + 0.3 * spread * place(2 * k + 2),
+            direction: (place(1) + spread * place(2 * k + 3)).normalize(),
+            t_max: f64::INFINITY,
+            footprint: Footprint {
+                at_origin: 0.0,
+                spread: 1e-3,
+            },
+        };
+        (0..32).map(ray).collect()
+    }
+
+    #[test]
+    fn what_a_ray_enters_its_beam_enters_no_later() {
+        let mut entered = 0;
+        for seed in 0..2000u64 {
+            let rays = rays(seed);
+            let beam = Beam::around(rays.iter());
+            let x = |j: u64| 3.0 * random(seed * 31 + j) - 1.5;
+            let bounds = Bounds::centred([0.5 * random(seed + 7); 3]).translate([x(1), x(2), x(3)]);
+            for ray in &rays {
+                if let Some((enter, _)) = clip(ray.origin, ray.direction.recip(), &bounds, 100.0) {
+                    entered += 1;
+                    let first = beam.enters(&bounds, 100.0);
+                    assert!(
+                        first.is_some_and(|t| t <= enter),
+                        "seed {seed}: {first:?}, {enter}"
+                    );
+                }
+            }
+        }
+        assert!(entered > 300, "{entered}");
+    }
+
+    #[test]
+    fn balls_hold_the_rays() {
+        for seed in 0..500u64 {
+            let rays = rays(seed);
+            let beam = Beam::around(rays.iter());
+            let from = 10.0 * random(seed + 1);
+            let to = from + random(seed + 2);
+            let (centre, radius) = beam.ball(from, to);
+            for ray in &rays {
+                for k in 0..=4 {
+                    let t = from + (to - from) * f64::from(k) / 4.0;
+                    assert!(ray.at(t).distance(centre) <= radius, "seed {seed}");
+                }
+            }
+        }
+    }
+}

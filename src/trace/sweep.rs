@@ -1,0 +1,601 @@
+//! The search of the method `auto`: bundle by bundle, part by part, in lanes.
+//!
+//! The rays of a bundle go about the same way, so a part that their beam misses is asked of none of them, and a
+//! combination is thinned out ball by ball along the beam. What is left out has no say on any of the rays, so no ray's
+//! result depends on the others. Sources: Barbier et al. 2025 for thinning; Boulos, Wald and Shirley 2006 for beams.
+
+#![allow(
+    clippy::needless_range_loop,
+    reason = "lanes run through many arrays side by side"
+)]
+
+use super::analytic::Crossing;
+use super::beam::Beam;
+use super::bundle::{Bundle, CAPACITY, Clip, EnterBall, EnterHalfSpace, WIDTH};
+use super::newton::Newton;
+use super::part::{Marched, Part, PartKind};
+use super::stride::{Found, Packet, Rules, Stride};
+use super::world::World;
+use super::{Ray, Verdict};
+use crate::field::{Closure, Task, Thicket, Thinned, Walked, run_at};
+use crate::num::{Dual, F64x32, Lanes, Vec3};
+use std::cell::Cell;
+
+/// A bundle whose beam meets more parts than this is divided.
+const CROWD: usize = 24;
+
+/// The same for what fits into one packet.
+const SMALL_CROWD: usize = 64;
+
+/// A beam that starts wider than this share of a combination is divided, so that thinning it out is of use.
+const TOO_WIDE: f64 = 0.1;
+
+/// Below this many rays it is not worth to thin out a combination.
+const FEW: usize = 8;
+
+/// The packet in which lanes are put together that lag behind.
+const MIXED: usize = CAPACITY / WIDTH;
+
+/// Lanes lag behind if no more than this go on in a packet.
+const LAGGARDS: i64 = 12;
+
+/// Memory that is used again and again.
+pub(super) struct Scratch {
+    bundle: Box<Bundle>,
+    /// Those of a bundle, and one more in which lanes are put together.
+    packets: Vec<Box<Packet>>,
+    candidates: Vec<(f64, u32)>,
+    rays: Vec<u32>,
+    found: Vec<Found>,
+    /// Rays with hits whose gradients are still to be found.
+    fresh: Vec<u32>,
+}
+
+thread_local! {
+    static SCRATCH: Cell<Option<Box<Scratch>>> = const { Cell::new(None) };
+}
+
+/// Which parts count, and whether any hit will do.
+pub(super) struct Question<'a> {
+    /// Whether a part is seen.
+    pub is_seen: &'a dyn Fn(&Part) -> bool,
+    /// Whether a ray is content with any hit.
+    pub any: bool,
+}
+
+/// What a part is asked.
+struct Visit<'a> {
+    marched: &'a Marched,
+    number: u32,
+    any: bool,
+    rules: Rules,
+}
+
+/// A stretch of the way through a part, with the field that holds there.
+struct Stage {
+    from: f64,
+    to: f64,
+    /// On which side the rays are before it, if what lies between it and the stage before is free.
+    before: Option<f64>,
+    value: Closure<F64x32>,
+    left: Option<Thinned>,
+}
+
+impl World {
+    /// Asks `question` of all rays; `answer` is given each bundle, with the numbers of the rays in it.
+    pub(super) fn sweep(
+        &self,
+        rays: &[Ray],
+        question: &Question,
+        answer: &mut dyn FnMut(&Bundle, &[u32]),
+    ) {
+        let scratch = SCRATCH.with(Cell::take);
+        let mut scratch = scratch.unwrap_or_else(|| {
+            Box::new(Scratch {
+                bundle: Bundle::new(),
+                packets: (0..=MIXED).map(|_| Packet::new()).collect(),
+                candidates: Vec::new(),
+                rays: Vec::new(),
+                found: Vec::new(),
+                fresh: Vec::new(),
+            })
+        });
+        let mut numbers: Vec<u32> = (0..rays.len() as u32).collect();
+        for numbers in numbers.chunks_mut(CAPACITY) {
+            self.sweep_bundle(rays, numbers, question, &mut scratch, answer);
+        }
+        SCRATCH.with(|cell| cell.set(Some(scratch)));
+    }
+
+    fn sweep_bundle(
+        &self,
+        rays: &[Ray],
+        numbers: &mut [u32],
+        question: &Question,
+        scratch: &mut Scratch,
+        answer: &mut dyn FnMut(&Bundle, &[u32]),
+    ) {
+        let some = numbers.iter().map(|number| &rays[*number as usize]);
+        let beam = Beam::around(some.clone());
+        let limit = some.fold(0.0, |a: f64, ray| a.max(ray.t_max));
+        self.meet(&beam, limit, question, &mut scratch.candidates);
+        if self.is_crowd(&beam, numbers.len(), &scratch.candidates) {
+            let is_first = beam.divide(self.horizon);
+            numbers.sort_by_key(|number| !is_first(&rays[*number as usize]));
+            let half = numbers.partition_point(|number| is_first(&rays[*number as usize]));
+            if half > 0 && half < numbers.len() {
+                let (first, second) = numbers.split_at_mut(half);
+                self.sweep_bundle(rays, first, question, scratch, answer);
+                self.sweep_bundle(rays, second, question, scratch, answer);
+                return;
+            }
+        }
+        scratch
+            .candidates
+            .sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        scratch.bundle.fill(rays, numbers);
+        let mut farthest = scratch.bundle.farthest();
+        for k in 0..scratch.candidates.len() {
+            let (enter, number) = scratch.candidates[k];
+            if enter > farthest {
+                break;
+            }
+            if self.ask(number, &beam, question.any, scratch) {
+                farthest = scratch.bundle.farthest();
+            }
+        }
+        answer(&scratch.bundle, numbers);
+    }
+
+    /// Whether a beam of `rays` rays should be divided before it is asked of these parts.
+    fn is_crowd(&self, beam: &Beam, rays: usize, candidates: &[(f64, u32)]) -> bool {
+        let crowd = if rays > WIDTH { CROWD } else { SMALL_CROWD };
+        let is_too_wide = |number: u32| match &self.parts[number as usize].kind {
+            PartKind::Marched(marched) => {
+                let size = marched.region.radius();
+                marched.thicket.is_some() && beam.radius(0.0) > TOO_WIDE * size
+            }
+            _ => false,
+        };
+        rays > 1 && candidates.len() > crowd
+            || rays > WIDTH && candidates.iter().any(|(_, number)| is_too_wide(*number))
+    }
+
+    /// Collects the parts that a beam may meet before `limit`, with where.
+    fn meet(&self, beam: &Beam, limit: f64, question: &Question, met: &mut Vec<(f64, u32)>) {
+        met.clear();
+        let is_seen = |number: u32| (question.is_seen)(&self.parts[number as usize]);
+        met.extend(
+            self.endless
+                .iter()
+                .filter(|n| is_seen(**n))
+                .map(|n| (0.0, *n)),
+        );
+        self.hierarchy.visit_beam(beam, limit, |number| {
+            let enter = beam.enters(&self.parts[number as usize].bounds, limit);
+            met.extend(
+                enter
+                    .filter(|_| is_seen(number))
+                    .map(|enter| (enter, number)),
+            );
+        });
+    }
+
+    /// Asks one part of all rays of the bundle; gives whether any found something.
+    fn ask(&self, number: u32, beam: &Beam, any: bool, scratch: &mut Scratch) -> bool {
+        let bundle = &mut *scratch.bundle;
+        match &self.parts[number as usize].kind {
+            PartKind::Ball(ball) => {
+                run_at(self.level, EnterBall { bundle, ball }) && take(bundle, number, any)
+            }
+            PartKind::HalfSpace(plane) => {
+                run_at(self.level, EnterHalfSpace { bundle, plane });
+                take(bundle, number, any)
+            }
+            PartKind::Facet(facet) => {
+                let mut is_hit = false;
+                for ray in 0..bundle.count {
+                    let [o, d] = [&bundle.origin, &bundle.direction]
+                        .map(|c| [0, 1, 2].map(|axis| c[axis][ray]));
+                    if let Some(found) = facet.crossing(o.into(), d.into())
+                        && found.t <= bundle.limit[ray]
+                    {
+                        is_hit |= bundle.offer(ray, found, number, any);
+                    }
+                }
+                is_hit
+            }
+            PartKind::Marched(marched) => {
+                let bounds = &marched.region;
+                run_at(self.level, Clip { bundle, bounds });
+                scratch.rays.clear();
+                for ray in 0..bundle.count {
+                    if bundle.enter[ray] <= bundle.leave[ray] {
+                        scratch.rays.push(ray as u32);
+                    }
+                }
+                !scratch.rays.is_empty() && self.march(marched, number, beam, any, scratch)
+            }
+        }
+    }
+
+    /// Walks the rays that come into the region of a part through its field.
+    fn march(
+        &self,
+        marched: &Marched,
+        number: u32,
+        beam: &Beam,
+        any: bool,
+        scratch: &mut Scratch,
+    ) -> bool {
+        let is_endless = !marched.region.is_finite();
+        let rules = Rules {
+            lipschitz: marched.lipschitz,
+            tolerance: self.settings.tolerance,
+            max_steps: self.settings.max_steps,
+            reach: if is_endless {
+                self.horizon.max(marched.size)
+            } else {
+                marched.size
+            },
+            extent: marched.region.radius_about_centre(),
+            is_endless,
+        };
+        let rays = std::mem::take(&mut scratch.rays);
+        let packets = rays.len().div_ceil(WIDTH);
+        for (k, rays) in rays.chunks(WIDTH).enumerate() {
+            scratch.packets[k].load(&scratch.bundle, rays, &rules);
+        }
+        scratch.rays = rays;
+        let visit = Visit {
+            marched,
+            number,
+            any,
+            rules,
+        };
+        let mut is_hit = false;
+        if marched.is_sheet || marched.slope.is_some() {
+            for k in 0..packets {
+                let packet = &mut *scratch.packets[k];
+                match &marched.slope {
+                    Some(slope) => {
+                        let (slope, rules) = (&slope.wide, &visit.rules);
+                        run_at(
+                            self.level,
+                            Newton {
+                                packet,
+                                slope,
+                                rules,
+                            },
+                        );
+                    }
+                    None => packet.walk_singly(),
+                }
+                is_hit |= self.settle(&visit, k, scratch);
+            }
+            self.incline(&visit, None, scratch);
+        } else {
+            for stage in &self.stages(marched, beam, &visit.rules, scratch) {
+                is_hit |= self.pass(&visit, stage, packets, scratch);
+            }
+        }
+        for packet in &mut scratch.packets[..packets] {
+            for lane in 0..packet.count {
+                let ray = packet.ray[lane] as usize;
+                scratch.bundle.steps[ray] += packet.steps[lane] as u32;
+                scratch.bundle.evaluations[ray] += packet.evaluations[lane] as u32;
+            }
+        }
+        is_hit
+    }
+
+    /// Walks all packets through a stage. Lanes that lag behind are put together in a packet of their own, so that few
+    /// evaluations are done for few lanes.
+    fn pass(&self, visit: &Visit, stage: &Stage, packets: usize, scratch: &mut Scratch) -> bool {
+        let walk = |packet: &mut Packet, few: i64| {
+            let (value, rules) = (&stage.value, &visit.rules);
+            run_at(
+                self.level,
+                Stride {
+                    packet,
+                    value,
+                    rules,
+                    few,
+                },
+            );
+        };
+        let few = if packets > 1 { LAGGARDS } else { 0 };
+        let mut homes: Vec<(usize, usize)> = Vec::new();
+        let mut is_hit = false;
+        scratch.packets[MIXED].clear();
+        for k in 0..packets {
+            if !scratch.packets[k].enter(stage.from, stage.to, stage.before) {
+                continue;
+            }
+            walk(&mut scratch.packets[k], few);
+            let going: Vec<usize> = scratch.packets[k].going().collect();
+            for from in going {
+                let [packet, mixed] = pair(&mut scratch.packets, k);
+                mixed.adopt(homes.len(), packet, from);
+                homes.push((k, from));
+                if homes.len() == WIDTH {
+                    walk(mixed, LAGGARDS);
+                    is_hit |= self.disband(visit, &mut homes, scratch);
+                }
+            }
+            is_hit |= self.settle(visit, k, scratch);
+        }
+        if !homes.is_empty() {
+            walk(&mut scratch.packets[MIXED], 0);
+            is_hit |= self.disband(visit, &mut homes, scratch);
+        }
+        self.incline(visit, stage.left.as_ref(), scratch);
+        is_hit
+    }
+
+    /// Sends the lanes of the mixed packet that have come to the end of the stage home; those that go on move up.
+    fn disband(
+        &self,
+        visit: &Visit,
+        homes: &mut Vec<(usize, usize)>,
+        scratch: &mut Scratch,
+    ) -> bool {
+        let is_hit = self.settle(visit, MIXED, scratch);
+        let arrived: Vec<usize> = scratch.packets[MIXED].arrived().collect();
+        for lane in arrived {
+            let (k, from) = homes[lane];
+            let [packet, mixed] = pair(&mut scratch.packets, k);
+            packet.adopt(from, mixed, lane);
+        }
+        let going: Vec<usize> = scratch.packets[MIXED].going().collect();
+        let mixed = &mut scratch.packets[MIXED];
+        for (to, from) in going.iter().enumerate() {
+            homes[to] = homes[*from];
+            if to != *from {
+                mixed.shift(to, *from);
+            }
+        }
+        homes.truncate(going.len());
+        is_hit
+    }
+
+    /// Hands what the lanes of a packet found over to the bundle.
+    fn settle(&self, visit: &Visit, k: usize, scratch: &mut Scratch) -> bool {
+        let &Visit {
+            marched,
+            number,
+            any,
+            ..
+        } = visit;
+        let Scratch {
+            bundle,
+            packets,
+            found,
+            fresh,
+            ..
+        } = scratch;
+        let packet = &mut packets[k];
+        packet.found(&visit.rules, marched, found);
+        let mut is_hit = false;
+        for Found { lane, ending } in found.drain(..) {
+            let ray = packet.ray[lane] as usize;
+            bundle.steps[ray] += packet.steps[lane] as u32;
+            bundle.evaluations[ray] += packet.evaluations[lane] as u32;
+            (packet.steps[lane], packet.evaluations[lane]) = (0, 0);
+            match ending.verdict {
+                Verdict::Hit => {
+                    let crossing = Crossing {
+                        t: ending.t,
+                        error: ending.error,
+                    };
+                    if ending.t <= bundle.t_max[ray] && bundle.offer(ray, crossing, number, any) {
+                        is_hit = true;
+                        fresh.push(ray as u32);
+                    }
+                }
+                Verdict::Miss => {}
+                Verdict::Unknown => bundle.unknown[ray] = bundle.unknown[ray].min(ending.t),
+            }
+        }
+        is_hit
+    }
+
+    /// Finds the gradients at the hits of a stage that have none yet.
+    fn incline(&self, visit: &Visit, left: Option<&Thinned>, scratch: &mut Scratch) {
+        let Scratch { bundle, fresh, .. } = scratch;
+        if !visit.any && !fresh.is_empty() {
+            let thinned = match (&visit.marched.thicket, left) {
+                (Some(thicket), Some(left)) => thicket.slope(left),
+                _ => None,
+            };
+            let node = &self.parts[visit.number as usize].node;
+            let slope = thinned.as_ref().or(visit.marched.gradient_wide.as_ref());
+            let source = match slope {
+                Some(slope) => Some(Derivatives::Along(slope)),
+                None => visit
+                    .marched
+                    .gradient_graph(node, self.level)
+                    .map(Derivatives::All),
+            };
+            if let Some(source) = source {
+                for rays in fresh.chunks(WIDTH) {
+                    let task = Gradient {
+                        bundle,
+                        source: &source,
+                        rays,
+                    };
+                    run_at(self.level, task);
+                }
+            }
+        }
+        fresh.clear();
+    }
+
+    /// The stages of the way through a part.
+    fn stages(
+        &self,
+        marched: &Marched,
+        beam: &Beam,
+        rules: &Rules,
+        scratch: &mut Scratch,
+    ) -> Vec<Stage> {
+        let whole = || Stage {
+            from: 0.0,
+            to: f64::INFINITY,
+            before: None,
+            value: marched.value.clone(),
+            left: None,
+        };
+        let bundle = &scratch.bundle;
+        let ends = scratch.rays.iter().map(|ray| {
+            let ray = *ray as usize;
+            (bundle.enter[ray], bundle.leave[ray])
+        });
+        let (from, to) = ends.fold((f64::INFINITY, 0.0f64), |(a, b), (enter, leave)| {
+            (a.min(enter), b.max(leave))
+        });
+        let Some(thicket) = marched.thicket.as_ref() else {
+            return vec![whole()];
+        };
+        let is_wide = beam.radius(from) > 0.25 * (to - from);
+        if scratch.rays.len() < FEW || !to.is_finite() || to <= from || is_wide {
+            return vec![whole()];
+        }
+        self.thinned_stages(thicket, beam, rules, (from, to))
+    }
+
+    /// The stages from `from` to `to`, by balls along the beam; those that are surely free are left out.
+    fn thinned_stages(
+        &self,
+        thicket: &Thicket,
+        beam: &Beam,
+        rules: &Rules,
+        (from, to): (f64, f64),
+    ) -> Vec<Stage> {
+        let width = (to - from) / WIDTH as f64;
+        let border = |k: usize| from + width * k as f64;
+        let mut centres = [[0.0; WIDTH]; 3];
+        let mut radii = [0.0; WIDTH];
+        // Room for steps that begin in one ball and end in the next, and for the rounding of borders.
+        let room = 1e-9 * (to + rules.reach);
+        for k in 0..WIDTH {
+            let (centre, radius) = beam.ball(border(k), border(k + 1));
+            radii[k] = radius + room;
+            (0..3).for_each(|axis| centres[axis][k] = centre[axis]);
+        }
+        let [x, y, z] = centres.map(Lanes);
+        let values = thicket.values(&Vec3::new(x, y, z));
+        let joined = thicket.joined(&values);
+
+        let noise = 64.0 * f64::EPSILON * (rules.reach + to) * rules.lipschitz;
+        let mut stages: Vec<Stage> = Vec::new();
+        let mut free = Some(1.0).filter(|_| from > 0.0);
+        for k in 0..WIDTH {
+            let change = rules.lipschitz * radii[k] * (1.0 + 1e-9) + noise;
+            let value = joined.0[k];
+            if value.abs() > change {
+                free = Some(value.signum());
+                continue;
+            }
+            let left = thicket.thinned(&values, k, radii[k], noise);
+            if left.reach.low > 0.0 || left.reach.high < 0.0 {
+                free = Some(left.reach.low.signum());
+                continue;
+            }
+            let is_next = free.is_none();
+            if let Some(last) = stages.last_mut()
+                && is_next
+                && last.left.as_ref().is_some_and(|l| l.is_same(&left))
+            {
+                last.to = border(k + 1);
+                continue;
+            }
+            stages.push(Stage {
+                from: border(k),
+                to: border(k + 1),
+                before: free.take(),
+                value: thicket.value(&left),
+                left: Some(left),
+            });
+        }
+        stages
+    }
+}
+
+/// Packet `k` and the mixed one.
+fn pair(packets: &mut [Box<Packet>], k: usize) -> [&mut Packet; 2] {
+    let (own, mixed) = packets.split_at_mut(MIXED);
+    [&mut own[k], &mut mixed[0]]
+}
+
+/// Takes the crossings in `enter`, with their errors in `leave`, as hits; gives whether any is new.
+fn take(bundle: &mut Bundle, number: u32, any: bool) -> bool {
+    let mut is_hit = false;
+    for ray in 0..bundle.count {
+        if bundle.enter[ray] < f64::INFINITY {
+            let found = Crossing {
+                t: bundle.enter[ray],
+                error: bundle.leave[ray],
+            };
+            is_hit |= bundle.offer(ray, found, number, any);
+        }
+    }
+    is_hit
+}
+
+/// Finds the gradients at the hits of up to 32 rays: the derivatives along the three axes.
+struct Gradient<'a> {
+    bundle: &'a mut Bundle,
+    source: &'a Derivatives<'a>,
+    rays: &'a [u32],
+}
+
+/// Where derivatives come from.
+enum Derivatives<'a> {
+    /// From dual numbers, along one axis at a time.
+    Along(&'a Closure<Dual<F64x32, 1>>),
+    /// From a graph, along all three.
+    All(&'a Walked<F64x32>),
+}
+
+impl Task for Gradient<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self {
+            bundle,
+            source,
+            rays,
+        } = self;
+        let mut places = [[0.0; WIDTH]; 3];
+        for lane in 0..WIDTH {
+            let ray = rays[if lane < rays.len() { lane } else { 0 }] as usize;
+            for axis in 0..3 {
+                let (o, d) = (bundle.origin[axis][ray], bundle.direction[axis][ray]);
+                places[axis][lane] = o + d * bundle.t[ray];
+            }
+        }
+        let mut gradient = [Lanes([0.0; WIDTH]); 3];
+        match source {
+            Derivatives::All(walk) => {
+                let [x, y, z] = places.map(Lanes);
+                walk(&Vec3::new(x, y, z), &mut gradient);
+            }
+            Derivatives::Along(slope) => {
+                for axis in 0..3 {
+                    let moving = |k: usize| {
+                        let rate = if k == axis { 1.0 } else { 0.0 };
+                        Dual::new(Lanes(places[k]), [Lanes([rate; WIDTH])])
+                    };
+                    gradient[axis] = slope(&Vec3::new(moving(0), moving(1), moving(2))).partial[0];
+                }
+            }
+        }
+        for axis in 0..3 {
+            for lane in 0..rays.len() {
+                bundle.gradient[axis][rays[lane] as usize] = gradient[axis].0[lane];
+            }
+        }
+    }
+}

@@ -9,6 +9,7 @@ use glam::DVec3;
 pub(super) struct Beam {
     origins: [DVec3; 2],
     directions: [DVec3; 2],
+    paces: [Pace; 3],
     /// The mean ray: its direction is not normalised.
     origin: DVec3,
     direction: DVec3,
@@ -42,6 +43,7 @@ impl Beam {
         Self {
             origins,
             directions,
+            paces: [0, 1, 2].map(|axis| Pace::new(directions[0][axis], directions[1][axis])),
             origin,
             direction,
             width: width.sqrt() * room,
@@ -62,21 +64,22 @@ impl Beam {
     }
 
     /// Where rays may come between two planes across an axis, and where all have left.
+    #[inline]
     fn within(&self, axis: usize, low: f64, high: f64) -> (f64, f64) {
         let (first, last) = (self.origins[0][axis], self.origins[1][axis]);
-        let (slowest, fastest) = (self.directions[0][axis], self.directions[1][axis]);
+        let pace = &self.paces[axis];
         // Rays that rise come in at `low` and leave at `high`, rays that fall the other way round.
         let near = if low > last {
-            quotient(low - last, fastest)
+            (low - last) * pace.rise[0]
         } else if high < first {
-            quotient(first - high, -slowest)
+            (first - high) * pace.fall[0]
         } else {
             0.0
         };
-        let far = if slowest > 0.0 {
-            (high - first) / if high > first { slowest } else { fastest }
-        } else if fastest < 0.0 {
-            (last - low) / if last > low { -fastest } else { -slowest }
+        let far = if pace.rise[1] < f64::INFINITY {
+            (high - first) * pace.rise[usize::from(high > first)]
+        } else if pace.fall[1] < f64::INFINITY {
+            (last - low) * pace.fall[usize::from(last > low)]
         } else {
             f64::INFINITY
         };
@@ -127,12 +130,28 @@ impl Beam {
     }
 }
 
-/// The time that a way takes at a speed; infinite where there is no speed in this direction.
-fn quotient(way: f64, speed: f64) -> f64 {
-    if speed > 0.0 {
-        way / speed
-    } else {
-        f64::INFINITY
+/// How long rays take for a unit along an axis: the fastest and the slowest of them. Infinite where there is none, or one
+/// that never arrives.
+#[derive(Clone, Copy, Debug)]
+struct Pace {
+    rise: [f64; 2],
+    fall: [f64; 2],
+}
+
+impl Pace {
+    /// The pace of rays whose directions have components from `slowest` to `fastest`.
+    fn new(slowest: f64, fastest: f64) -> Self {
+        let time = |speed: f64| {
+            if speed > 0.0 {
+                1.0 / speed
+            } else {
+                f64::INFINITY
+            }
+        };
+        Self {
+            rise: [time(fastest), time(slowest)],
+            fall: [time(-slowest), time(-fastest)],
+        }
     }
 }
 

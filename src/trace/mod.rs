@@ -1,21 +1,27 @@
 //! Floor 4: rays to hits, by the batch.
 //!
 //! A [`World`] is a list of parts. Spheres, planes and triangles of hard unions are entered analytically; what is left
-//! is marched, each part inside its bounds, in packets of lanes. Every ray is a small machine of its own
-//! (`method`), so its result depends neither on the packet it rides in nor on the number of threads.
+//! is marched, each part inside its bounds. The default method takes bundles of rays (`sweep`) through stages of thinned
+//! combinations (`stages`) in packets of lanes (`stride`, `newton`); the others are small machines, one for each ray
+//! (`method`). What a ray finds depends neither on the rays it is traced with nor on the number of threads.
 
 pub mod analytic;
 mod beam;
 mod bundle;
+mod fan;
 mod hierarchy;
+mod inclines;
 mod join;
 mod march;
 mod method;
 mod newton;
 mod outcome;
+mod packet;
 mod part;
 mod ray;
 mod scene_tracer;
+mod single;
+mod stages;
 mod stride;
 mod survey;
 mod sweep;

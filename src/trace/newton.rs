@@ -3,7 +3,7 @@
 //! As `method/convex.rs`, which has the sources; a ray that starts inside is handed over to it.
 
 use super::bundle::WIDTH;
-use super::stride::{Lane, Packet, Rules, finest, state};
+use super::packet::{Lane, Packet, Rules, finest, state};
 use crate::field::{Closure, Task};
 use crate::num::{Dual, F64x32, Lanes, Vec3};
 

@@ -32,6 +32,7 @@ impl PartKind {
             Self::HalfSpace(_) => "analytic plane",
             Self::Facet(_) => "analytic triangle",
             Self::Marched(m) if m.slope.is_some() => "convex: by slope",
+            Self::Marched(m) if m.thicket.is_some() => "sphere tracing, thinned out",
             Self::Marched(_) => "sphere tracing",
         }
     }

@@ -4,21 +4,18 @@
 //! combination is thinned out ball by ball along the beam. What is left out has no say on any of the rays, so no ray's
 //! result depends on the others. Sources: Barbier et al. 2025 for thinning; Boulos, Wald and Shirley 2006 for beams.
 
-#![allow(
-    clippy::needless_range_loop,
-    reason = "lanes run through many arrays side by side"
-)]
-
 use super::analytic::Crossing;
 use super::beam::Beam;
 use super::bundle::{Bundle, CAPACITY, Clip, EnterBall, EnterHalfSpace, WIDTH};
+use super::inclines::{Derivatives, Gradient};
 use super::newton::Newton;
+use super::packet::{Found, Packet, Rules};
 use super::part::{Marched, Part, PartKind};
-use super::stride::{Found, Packet, Rules, Stride};
+use super::stages::{Stage, stages};
+use super::stride::Stride;
 use super::world::World;
 use super::{Ray, Verdict};
-use crate::field::{Closure, Task, Thicket, Thinned, Walked, run_at};
-use crate::num::{Dual, F64x32, Lanes, Vec3};
+use crate::field::{Thinned, run_at};
 use std::cell::Cell;
 
 /// A bundle whose beam meets more parts than this is divided.
@@ -29,9 +26,6 @@ const SMALL_CROWD: usize = 64;
 
 /// A beam that starts wider than this share of a combination is divided, so that thinning it out is of use.
 const TOO_WIDE: f64 = 0.1;
-
-/// Below this many rays it is not worth to thin out a combination.
-const FEW: usize = 8;
 
 /// The packet in which lanes are put together that lag behind.
 const MIXED: usize = CAPACITY / WIDTH;
@@ -69,16 +63,6 @@ struct Visit<'a> {
     number: u32,
     any: bool,
     rules: Rules,
-}
-
-/// A stretch of the way through a part, with the field that holds there.
-struct Stage {
-    from: f64,
-    to: f64,
-    /// On which side the rays are before it, if what lies between it and the stage before is free.
-    before: Option<f64>,
-    value: Closure<F64x32>,
-    left: Option<Thinned>,
 }
 
 impl World {
@@ -275,7 +259,7 @@ impl World {
             }
             self.incline(&visit, None, scratch);
         } else {
-            for stage in &self.stages(marched, beam, &visit.rules, scratch) {
+            for stage in &stages(marched, beam, &visit.rules, &scratch.bundle, &scratch.rays) {
                 is_hit |= self.pass(&visit, stage, packets, scratch);
             }
         }
@@ -430,96 +414,6 @@ impl World {
         }
         fresh.clear();
     }
-
-    /// The stages of the way through a part.
-    fn stages(
-        &self,
-        marched: &Marched,
-        beam: &Beam,
-        rules: &Rules,
-        scratch: &mut Scratch,
-    ) -> Vec<Stage> {
-        let whole = || Stage {
-            from: 0.0,
-            to: f64::INFINITY,
-            before: None,
-            value: marched.value.clone(),
-            left: None,
-        };
-        let bundle = &scratch.bundle;
-        let ends = scratch.rays.iter().map(|ray| {
-            let ray = *ray as usize;
-            (bundle.enter[ray], bundle.leave[ray])
-        });
-        let (from, to) = ends.fold((f64::INFINITY, 0.0f64), |(a, b), (enter, leave)| {
-            (a.min(enter), b.max(leave))
-        });
-        let Some(thicket) = marched.thicket.as_ref() else {
-            return vec![whole()];
-        };
-        let is_wide = beam.radius(from) > 0.25 * (to - from);
-        if scratch.rays.len() < FEW || !to.is_finite() || to <= from || is_wide {
-            return vec![whole()];
-        }
-        self.thinned_stages(thicket, beam, rules, (from, to))
-    }
-
-    /// The stages from `from` to `to`, by balls along the beam; those that are surely free are left out.
-    fn thinned_stages(
-        &self,
-        thicket: &Thicket,
-        beam: &Beam,
-        rules: &Rules,
-        (from, to): (f64, f64),
-    ) -> Vec<Stage> {
-        let width = (to - from) / WIDTH as f64;
-        let border = |k: usize| from + width * k as f64;
-        let mut centres = [[0.0; WIDTH]; 3];
-        let mut radii = [0.0; WIDTH];
-        // Room for steps that begin in one ball and end in the next, and for the rounding of borders.
-        let room = 1e-9 * (to + rules.reach);
-        for k in 0..WIDTH {
-            let (centre, radius) = beam.ball(border(k), border(k + 1));
-            radii[k] = radius + room;
-            (0..3).for_each(|axis| centres[axis][k] = centre[axis]);
-        }
-        let [x, y, z] = centres.map(Lanes);
-        let values = thicket.values(&Vec3::new(x, y, z));
-        let joined = thicket.joined(&values);
-
-        let noise = 64.0 * f64::EPSILON * (rules.reach + to) * rules.lipschitz;
-        let mut stages: Vec<Stage> = Vec::new();
-        let mut free = Some(1.0).filter(|_| from > 0.0);
-        for k in 0..WIDTH {
-            let change = rules.lipschitz * radii[k] * (1.0 + 1e-9) + noise;
-            let value = joined.0[k];
-            if value.abs() > change {
-                free = Some(value.signum());
-                continue;
-            }
-            let left = thicket.thinned(&values, k, radii[k], noise);
-            if left.reach.low > 0.0 || left.reach.high < 0.0 {
-                free = Some(left.reach.low.signum());
-                continue;
-            }
-            let is_next = free.is_none();
-            if let Some(last) = stages.last_mut()
-                && is_next
-                && last.left.as_ref().is_some_and(|l| l.is_same(&left))
-            {
-                last.to = border(k + 1);
-                continue;
-            }
-            stages.push(Stage {
-                from: border(k),
-                to: border(k + 1),
-                before: free.take(),
-                value: thicket.value(&left),
-                left: Some(left),
-            });
-        }
-        stages
-    }
 }
 
 /// Packet `k` and the mixed one.
@@ -541,61 +435,4 @@ fn take(bundle: &mut Bundle, number: u32, any: bool) -> bool {
         }
     }
     is_hit
-}
-
-/// Finds the gradients at the hits of up to 32 rays: the derivatives along the three axes.
-struct Gradient<'a> {
-    bundle: &'a mut Bundle,
-    source: &'a Derivatives<'a>,
-    rays: &'a [u32],
-}
-
-/// Where derivatives come from.
-enum Derivatives<'a> {
-    /// From dual numbers, along one axis at a time.
-    Along(&'a Closure<Dual<F64x32, 1>>),
-    /// From a graph, along all three.
-    All(&'a Walked<F64x32>),
-}
-
-impl Task for Gradient<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let Self {
-            bundle,
-            source,
-            rays,
-        } = self;
-        let mut places = [[0.0; WIDTH]; 3];
-        for lane in 0..WIDTH {
-            let ray = rays[if lane < rays.len() { lane } else { 0 }] as usize;
-            for axis in 0..3 {
-                let (o, d) = (bundle.origin[axis][ray], bundle.direction[axis][ray]);
-                places[axis][lane] = o + d * bundle.t[ray];
-            }
-        }
-        let mut gradient = [Lanes([0.0; WIDTH]); 3];
-        match source {
-            Derivatives::All(walk) => {
-                let [x, y, z] = places.map(Lanes);
-                walk(&Vec3::new(x, y, z), &mut gradient);
-            }
-            Derivatives::Along(slope) => {
-                for axis in 0..3 {
-                    let moving = |k: usize| {
-                        let rate = if k == axis { 1.0 } else { 0.0 };
-                        Dual::new(Lanes(places[k]), [Lanes([rate; WIDTH])])
-                    };
-                    gradient[axis] = slope(&Vec3::new(moving(0), moving(1), moving(2))).partial[0];
-                }
-            }
-        }
-        for axis in 0..3 {
-            for lane in 0..rays.len() {
-                bundle.gradient[axis][rays[lane] as usize] = gradient[axis].0[lane];
-            }
-        }
-    }
 }

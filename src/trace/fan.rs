@@ -1,0 +1,122 @@
+//! Fans: a lane that lags behind is walked alone, at 32 places at once.
+
+#![allow(
+    clippy::needless_range_loop,
+    reason = "lanes run through many arrays side by side"
+)]
+
+use super::bundle::WIDTH;
+use super::packet::{Packet, Rules, finest, places, state};
+use super::stride::SHYNESS;
+use crate::field::Closure;
+use crate::num::F64x32;
+
+/// If no more lanes than this go on, those that lag behind are walked one by one, at 32 places at once.
+pub(super) const STRAGGLERS: i64 = 3;
+
+/// A lane lags behind after so many evaluations.
+const PATIENCE: i64 = 24;
+
+/// How often a lane may be asked for 32 places before it goes on by itself.
+const MAX_FANS: usize = 256;
+
+impl Packet {
+    /// Whether a lane steps along close to a surface, and has done so for long.
+    #[inline(always)]
+    pub(super) fn lags(&self, lane: usize, rules: &Rules) -> bool {
+        let is_stepping = matches!(self.state[lane], state::MARCHING | state::PROBING);
+        is_stepping
+            && self.evaluations[lane] >= PATIENCE
+            && self.departed[lane] != 0
+            && self.last_value[lane].abs() <= 2.0 * rules.lipschitz * self.epsilon(lane, rules)
+    }
+
+    /// The tolerance at the last sample of a lane.
+    #[inline(always)]
+    fn epsilon(&self, lane: usize, rules: &Rules) -> f64 {
+        let t = self.last_t[lane];
+        let tolerance = rules.tolerance * (self.footprint[lane] + self.spread[lane] * t);
+        tolerance.max(finest(self.size[lane], t))
+    }
+}
+
+/// Walks one lane on at 32 places at once, until it gets away from the surface or finds it: every gap between two places
+/// has to be known to be free, as every step.
+#[inline(always)]
+pub(super) fn fan(packet: &mut Packet, lane: usize, value: &Closure<F64x32>, rules: &Rules) {
+    let p = packet;
+    let slope = rules.lipschitz;
+    let [origin, direction] =
+        [&p.origin, &p.direction].map(|c| [0, 1, 2].map(|i| [c[i][lane]; WIDTH]));
+    let limit = p.limit[lane];
+    let (mut last_t, mut last) = (p.last_t[lane], p.last_value[lane]);
+    // The gap that was not free in the fan before.
+    let mut doubt = f64::INFINITY;
+    for _ in 0..MAX_FANS {
+        let epsilon = p.epsilon(lane, rules);
+        let free = last.abs() / slope;
+        if last_t + free > limit {
+            p.state[lane] = state::ARRIVED;
+            p.t[lane] = last_t + free;
+            return;
+        }
+        if free > 2.0 * epsilon {
+            p.state[lane] = state::MARCHING;
+            p.t[lane] = last_t + free;
+            return;
+        }
+        let rounding = finest(p.size[lane], last_t);
+        let width = if doubt < f64::INFINITY {
+            doubt / WIDTH as f64
+        } else {
+            (SHYNESS * free).max(epsilon / WIDTH as f64)
+        };
+        let width = width.max(rounding);
+        doubt = f64::INFINITY;
+        let mut t = [0.0; WIDTH];
+        for k in 0..WIDTH {
+            let place = last_t + width * (k + 1) as f64;
+            t[k] = if place < limit { place } else { limit };
+        }
+        let values = value(&places(&origin, &direction, &t)).0;
+        p.evaluations[lane] += WIDTH as i64;
+        for k in 0..WIDTH {
+            let now = values[k];
+            let gap = t[k] - last_t;
+            let sum = last.abs() + now.abs();
+            let differs = now != 0.0 && (now < 0.0) != (last < 0.0);
+            let noise = 64.0 * f64::EPSILON * (p.size[lane] + t[k]) * slope;
+            if (now - last).abs() > slope * gap * (1.0 + 1e-9) + noise {
+                p.state[lane] = state::REFUTED;
+                return;
+            }
+            if now.is_nan() || now == 0.0 {
+                p.state[lane] = state::SINGLE;
+                p.t[lane] = t[k];
+                return;
+            }
+            if differs && sum + slope * epsilon >= slope * gap * (1.0 - 1e-9) {
+                (p.high_t[lane], p.high_value[lane]) = (t[k], now);
+                p.narrowings[lane] = 0;
+                p.state[lane] = state::ENCLOSING;
+                p.t[lane] = last_t + 0.5 * gap;
+                return;
+            }
+            if differs || (sum < slope * gap * (1.0 - 1e-9) && gap > rounding) {
+                // The next fan looks closer from here.
+                doubt = gap;
+                break;
+            }
+            (last_t, last) = (t[k], now);
+            (p.last_t[lane], p.last_value[lane]) = (last_t, last);
+            p.side[lane] = if now < 0.0 { -1.0 } else { 1.0 };
+        }
+        if last_t >= limit {
+            p.state[lane] = state::ARRIVED;
+            p.t[lane] = last_t + free.max(epsilon);
+            return;
+        }
+    }
+    p.state[lane] = state::SINGLE;
+    p.t[lane] = last_t + (last.abs() / slope).max(p.epsilon(lane, rules));
+}

@@ -1,0 +1,385 @@
+//! Packets: 32 rays on their way through one field, in lanes.
+
+#![allow(
+    clippy::needless_range_loop,
+    reason = "lanes run through many arrays side by side"
+)]
+
+use super::Verdict;
+use super::bundle::{Bundle, WIDTH};
+use super::method::Ending;
+use super::part::Marched;
+use crate::num::{F64x32, Lanes, Vec3};
+
+/// A number for each lane.
+pub(super) type Lane = [f64; WIDTH];
+
+/// What a lane does. As 64-bit numbers, so that they are as wide as the lanes.
+pub(super) mod state {
+    /// Nothing: there is no ray in it.
+    pub const IDLE: i64 = 0;
+    /// It steps, and has no sample yet that it could compare with.
+    pub const FRESH: i64 = 1;
+    /// It steps, and has a last sample.
+    pub const MARCHING: i64 = 2;
+    /// It looks for a pair of roots inside of a step that went farther than is known to be free.
+    pub const PROBING: i64 = 3;
+    /// It narrows a change of sign.
+    pub const ENCLOSING: i64 = 4;
+    /// It has come to the end of its stretch.
+    pub const ARRIVED: i64 = 5;
+    /// It has found a surface.
+    pub const HIT: i64 = 6;
+    /// The field is steeper than its constant.
+    pub const REFUTED: i64 = 7;
+    /// It goes on by itself, outside of the lanes.
+    pub const SINGLE: i64 = 8;
+}
+
+/// How a tolerance is divided by the grid on which hits lie: one more evaluation than a thousandth takes, and what is
+/// computed from hits is as good as exact.
+const GRID: f64 = 1.0 / (1u64 << 22) as f64;
+
+/// The smallest distance at which a footprint counts for the grid, in sizes of the scene.
+const NEAR: f64 = 1.0 / 1024.0;
+
+/// 32 rays on their way through one field.
+pub(super) struct Packet {
+    pub(super) origin: [Lane; 3],
+    pub(super) direction: [Lane; 3],
+    pub(super) footprint: Lane,
+    pub(super) spread: Lane,
+    /// The size of coordinates on the way, for rounding errors.
+    pub(super) size: Lane,
+    /// Beyond this, a ray through a shape without end is given up.
+    pub(super) far: Lane,
+    /// The spacing of the places where hits are enclosed: a power of two.
+    pub(super) grid: Lane,
+    /// Its reciprocal.
+    pub(super) finer: Lane,
+    /// Where the ray enters the region.
+    pub(super) start: Lane,
+    /// Where it leaves it.
+    pub(super) end: Lane,
+    /// Where the stretch ends that is walked now.
+    pub(super) limit: Lane,
+    /// Where the field is wanted next.
+    pub(super) t: Lane,
+    /// The error of a hit that a walk by tangents found.
+    pub(super) error: Lane,
+    /// On which side of the surface the ray is known to be: 1 outside, -1 inside, 0 unknown.
+    pub(super) side: Lane,
+    pub(super) last_t: Lane,
+    pub(super) last_value: Lane,
+    pub(super) high_t: Lane,
+    pub(super) high_value: Lane,
+    pub(super) state: [i64; WIDTH],
+    pub(super) departed: [i64; WIDTH],
+    /// Whether the last sample counts.
+    pub(super) has_last: [i64; WIDTH],
+    pub(super) steps: [i64; WIDTH],
+    pub(super) narrowings: [i64; WIDTH],
+    pub(super) evaluations: [i64; WIDTH],
+    /// Which ray of the bundle each lane has.
+    pub ray: [u32; WIDTH],
+    /// How many lanes have a ray.
+    pub count: usize,
+}
+
+/// What a packet needs to know of the field and the settings.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rules {
+    /// The Lipschitz constant.
+    pub lipschitz: f64,
+    /// The tolerance, in footprints.
+    pub tolerance: f64,
+    /// How many steps a ray may take.
+    pub max_steps: u32,
+    /// How far the region reaches from the origin.
+    pub reach: f64,
+    /// The size of the region; infinite where it has no end.
+    pub extent: f64,
+    /// Whether the shape has no finite bounds.
+    pub is_endless: bool,
+}
+
+/// What a lane found.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found {
+    /// Which lane.
+    pub lane: usize,
+    /// How it ended.
+    pub ending: Ending,
+}
+
+/// All columns of a packet but those with three axes.
+macro_rules! columns {
+    ($do:ident) => {
+        $do! {
+            footprint spread size far grid finer start end limit t error side last_t last_value high_t high_value state departed
+            has_last steps narrowings evaluations ray
+        }
+    };
+}
+
+impl Packet {
+    /// A packet without rays.
+    pub fn new() -> Box<Self> {
+        let lane = [0.0; WIDTH];
+        Box::new(Self {
+            origin: [lane; 3],
+            direction: [lane; 3],
+            footprint: lane,
+            spread: lane,
+            size: lane,
+            far: lane,
+            grid: lane,
+            finer: lane,
+            start: lane,
+            end: lane,
+            limit: lane,
+            t: lane,
+            error: lane,
+            side: lane,
+            last_t: lane,
+            last_value: lane,
+            high_t: lane,
+            high_value: lane,
+            state: [state::IDLE; WIDTH],
+            departed: [0; WIDTH],
+            has_last: [0; WIDTH],
+            steps: [0; WIDTH],
+            narrowings: [0; WIDTH],
+            evaluations: [0; WIDTH],
+            ray: [0; WIDTH],
+            count: 0,
+        })
+    }
+
+    /// Takes these rays of a bundle, at most 32, from where they enter the region to where they leave it.
+    pub fn load(&mut self, bundle: &Bundle, rays: &[u32], rules: &Rules) {
+        self.count = rays.len();
+        for lane in 0..WIDTH {
+            // Lanes without a ray repeat the first, so that they cost nothing unusual.
+            let ray = rays[if lane < rays.len() { lane } else { 0 }] as usize;
+            let mut origin = 0.0f64;
+            for axis in 0..3 {
+                let o = bundle.origin[axis][ray];
+                self.origin[axis][lane] = o;
+                self.direction[axis][lane] = bundle.direction[axis][ray];
+                origin = origin.max(o.abs());
+            }
+            let (start, end) = stretch(bundle, ray, origin);
+            let (footprint, spread) = (bundle.footprint[ray], bundle.spread[ray]);
+            let size = origin + rules.reach;
+            let has_ray = lane < rays.len();
+            self.footprint[lane] = footprint;
+            self.spread[lane] = spread;
+            self.size[lane] = size;
+            self.far[lane] = f64::INFINITY;
+            let spacing = grid(start, size, rules, footprint, spread);
+            self.grid[lane] = spacing;
+            self.finer[lane] = 1.0 / spacing;
+            self.start[lane] = start;
+            self.end[lane] = end;
+            self.error[lane] = 0.0;
+            self.limit[lane] = end;
+            self.t[lane] = start;
+            // The region holds the solid, so a ray that comes into it is outside, whatever rounding says.
+            self.side[lane] = if start > 0.0 { 1.0 } else { 0.0 };
+            self.last_t[lane] = 0.0;
+            self.last_value[lane] = 0.0;
+            self.high_t[lane] = 0.0;
+            self.high_value[lane] = 0.0;
+            self.state[lane] = if has_ray { state::FRESH } else { state::IDLE };
+            self.departed[lane] = i64::from(start > 0.0);
+            self.has_last[lane] = 0;
+            self.steps[lane] = 0;
+            self.narrowings[lane] = 0;
+            self.evaluations[lane] = 0;
+            self.ray[lane] = ray as u32;
+        }
+    }
+
+    /// Readies the lanes for the stretch from `from` up to `to`. What lies before it is known to be free and on the side
+    /// `before` (1 outside, -1 inside), if that is given. Gives whether any lane has a way to go.
+    pub fn enter(&mut self, from: f64, to: f64, before: Option<f64>) -> bool {
+        let mut any = false;
+        for lane in 0..WIDTH {
+            if !is_walking(self.state[lane]) {
+                continue;
+            }
+            if let Some(side) = before.filter(|_| self.t[lane] < from) {
+                // The samples before the free stretch say nothing any more.
+                self.t[lane] = from;
+                self.side[lane] = side;
+                self.has_last[lane] = 0;
+                self.departed[lane] = 1;
+            }
+            let limit = to.min(self.end[lane]);
+            self.limit[lane] = limit;
+            self.state[lane] = if self.t[lane] > limit {
+                state::ARRIVED
+            } else if self.has_last[lane] != 0 {
+                state::MARCHING
+            } else {
+                state::FRESH
+            };
+            any |= self.state[lane] != state::ARRIVED;
+        }
+        any
+    }
+
+    /// Takes over a lane of another packet, which is idle afterwards.
+    pub fn adopt(&mut self, lane: usize, other: &mut Self, from: usize) {
+        macro_rules! copy {
+            ($($column:ident)*) => { $(self.$column[lane] = other.$column[from];)* };
+        }
+        for axis in 0..3 {
+            self.origin[axis][lane] = other.origin[axis][from];
+            self.direction[axis][lane] = other.direction[axis][from];
+        }
+        columns!(copy);
+        other.leave(from);
+    }
+
+    /// Moves a lane to another place.
+    pub fn shift(&mut self, lane: usize, from: usize) {
+        macro_rules! copy {
+            ($($column:ident)*) => { $(self.$column[lane] = self.$column[from];)* };
+        }
+        for axis in 0..3 {
+            self.origin[axis][lane] = self.origin[axis][from];
+            self.direction[axis][lane] = self.direction[axis][from];
+        }
+        columns!(copy);
+        self.leave(from);
+    }
+
+    fn leave(&mut self, lane: usize) {
+        self.state[lane] = state::IDLE;
+        (self.steps[lane], self.evaluations[lane]) = (0, 0);
+    }
+
+    /// Leaves all lanes idle.
+    pub fn clear(&mut self) {
+        self.state = [state::IDLE; WIDTH];
+    }
+
+    /// The lanes that go on.
+    pub fn going(&self) -> impl Iterator<Item = usize> {
+        (0..WIDTH)
+            .filter(|lane| self.state[*lane] < state::ARRIVED && self.state[*lane] != state::IDLE)
+    }
+
+    /// The lanes that have come to the end of their stretch.
+    pub fn arrived(&self) -> impl Iterator<Item = usize> {
+        (0..WIDTH).filter(|lane| self.state[*lane] == state::ARRIVED)
+    }
+
+    /// Lets every lane walk by itself.
+    pub fn walk_singly(&mut self) {
+        for lane in 0..self.count {
+            self.state[lane] = state::SINGLE;
+            self.steps[lane] = 1;
+            self.evaluations[lane] = 1;
+        }
+    }
+
+    /// The places of all lanes at these distances.
+    pub fn places(&self, t: &Lane) -> Vec3<F64x32> {
+        places(&self.origin, &self.direction, t)
+    }
+
+    /// Which lanes have found something since the last time, with the rare ones walked to their ends one by one.
+    pub fn found(&mut self, rules: &Rules, marched: &Marched, sink: &mut Vec<Found>) {
+        for lane in 0..WIDTH {
+            let ending = match self.state[lane] {
+                state::HIT => self.hit(lane),
+                state::REFUTED => Ending::broken(self.last_t[lane], self.steps[lane] as u32),
+                state::SINGLE => self.single(lane, rules, marched),
+                _ => continue,
+            };
+            self.state[lane] = state::IDLE;
+            sink.push(Found { lane, ending });
+        }
+    }
+
+    fn hit(&self, lane: usize) -> Ending {
+        let (low, high) = (self.last_t[lane], self.high_t[lane]);
+        let (a, b) = (self.last_value[lane], self.high_value[lane]);
+        let grid = self.grid[lane];
+        let width = high - low;
+        let is_on_grid = (low / grid).fract() == 0.0 && width == grid;
+        let is_by_tangents = self.error[lane] > 0.0;
+        let t = if is_by_tangents {
+            self.t[lane]
+        } else if b == 0.0 {
+            high
+        } else if is_on_grid {
+            low + a / (a - b) * width
+        } else {
+            low + 0.5 * width
+        };
+        let error = if is_by_tangents {
+            self.error[lane]
+        } else {
+            width.max(finest(self.size[lane], t))
+        };
+        Ending {
+            verdict: Verdict::Hit,
+            t,
+            error,
+            steps: self.steps[lane] as u32,
+        }
+    }
+}
+
+/// Where a ray walks: its way through the region, with room for the rounding of places along it.
+fn stretch(bundle: &Bundle, ray: usize, origin: f64) -> (f64, f64) {
+    let slack = |t: f64| 32.0 * f64::EPSILON * (origin + t);
+    let (enter, leave) = (bundle.enter[ray], bundle.leave[ray]);
+    let start = (enter - slack(enter)).max(0.0);
+    let end = if leave == bundle.t_max[ray] {
+        leave
+    } else {
+        leave + slack(leave)
+    };
+    (start, end)
+}
+
+/// The spacing of the places where a ray's hits are enclosed: a power of two that depends on the ray and the part alone.
+fn grid(start: f64, size: f64, rules: &Rules, footprint: f64, spread: f64) -> f64 {
+    let t = start.max(size * NEAR);
+    // Where a pixel is wider than the whole shape, the shape is the measure.
+    let tolerance = (rules.tolerance * (footprint + spread * t)).min(rules.extent);
+    power_of_two((GRID * tolerance).max(2.0 * finest(size, 2.0 * size)))
+}
+
+/// The largest power of two that is not above `x`.
+fn power_of_two(x: f64) -> f64 {
+    let exponent = x.to_bits() & (0x7ff << 52);
+    f64::from_bits(exponent).max(f64::MIN_POSITIVE)
+}
+
+/// The smallest difference of distances that rounding leaves at `t`.
+#[inline(always)]
+pub(super) fn finest(size: f64, t: f64) -> f64 {
+    4.0 * f64::EPSILON * if size > t { size } else { t }
+}
+
+fn is_walking(state: i64) -> bool {
+    matches!(state, state::FRESH | state::MARCHING | state::ARRIVED)
+}
+
+#[inline(always)]
+pub(super) fn places(origin: &[Lane; 3], direction: &[Lane; 3], t: &Lane) -> Vec3<F64x32> {
+    let mut p = [[0.0; WIDTH]; 3];
+    for axis in 0..3 {
+        for lane in 0..WIDTH {
+            p[axis][lane] = origin[axis][lane] + direction[axis][lane] * t[lane];
+        }
+    }
+    let [x, y, z] = p;
+    Vec3::new(Lanes(x), Lanes(y), Lanes(z))
+}

@@ -1,0 +1,98 @@
+//! Lanes that go on by themselves: those that run out of steps, meet what is not a number, start inside of a convex shape,
+//! or walk along a sheet.
+
+use super::method::{Certified, Convex, Ending, Segment, Walk};
+use super::packet::{Lane, Packet, Rules};
+use super::part::{Marched, Slope};
+use super::survey::decided;
+use super::{Footprint, Ray};
+use crate::num::{Dual, Vec3};
+use glam::DVec3;
+
+impl Packet {
+    /// Walks a lane to its end outside of the lanes.
+    pub(super) fn single(&mut self, lane: usize, rules: &Rules, marched: &Marched) -> Ending {
+        let segment = self.segment(lane, rules, marched);
+        let axis = |columns: &[Lane; 3]| DVec3::from_array([0, 1, 2].map(|i| columns[i][lane]));
+        let ray = Ray {
+            origin: axis(&self.origin),
+            direction: axis(&self.direction),
+            t_max: segment.end,
+            footprint: segment.footprint,
+        };
+        let ending = match &marched.slope {
+            Some(slope) => self.single_by_tangents(lane, &ray, segment, slope),
+            None => self.single_by_steps(lane, &ray, segment, marched),
+        };
+        let (ending, evaluations) = decided(marched, &ray, segment, ending);
+        self.evaluations[lane] += i64::from(evaluations);
+        ending
+    }
+
+    fn single_by_tangents(
+        &mut self,
+        lane: usize,
+        ray: &Ray,
+        segment: Segment,
+        slope: &Slope,
+    ) -> Ending {
+        let mut walk = Convex::begin(segment);
+        self.evaluations[lane] = 0;
+        loop {
+            let (p, d) = (ray.at(walk.t()), ray.direction);
+            let along = |value: f64, rate: f64| Dual::new(value, [rate]);
+            let place = Vec3::new(along(p.x, d.x), along(p.y, d.y), along(p.z, d.z));
+            let field = (slope.single)(&place);
+            self.evaluations[lane] += 1;
+            if let Some(ending) = walk.observe(field.value, field.partial[0]) {
+                return ending;
+            }
+        }
+    }
+
+    fn single_by_steps(
+        &mut self,
+        lane: usize,
+        ray: &Ray,
+        segment: Segment,
+        marched: &Marched,
+    ) -> Ending {
+        let has_last = self.has_last[lane] != 0;
+        let mut walk = Certified::resume(
+            segment,
+            has_last.then_some((self.last_t[lane], self.last_value[lane])),
+            self.t[lane],
+            self.departed[lane] != 0,
+            self.steps[lane] as u32 - 1,
+            self.far[lane],
+        );
+        // The sample that the lane could not go on from is taken again.
+        self.evaluations[lane] -= 1;
+        loop {
+            let p = ray.at(walk.t());
+            self.evaluations[lane] += 1;
+            let value = (marched.single)(&Vec3::new(p.x, p.y, p.z));
+            if let Some(ending) = walk.observe(value, 0.0) {
+                return ending;
+            }
+        }
+    }
+
+    /// What a lane walks along, for a walk outside of the lanes.
+    fn segment(&self, lane: usize, rules: &Rules, marched: &Marched) -> Segment {
+        Segment {
+            start: self.start[lane],
+            end: self.end[lane],
+            lipschitz: rules.lipschitz,
+            footprint: Footprint {
+                at_origin: self.footprint[lane],
+                spread: self.spread[lane],
+            },
+            tolerance: rules.tolerance,
+            max_steps: rules.max_steps,
+            size: self.size[lane],
+            is_sheet: marched.is_sheet,
+            is_endless: rules.is_endless,
+        }
+    }
+}

@@ -9,6 +9,7 @@ use super::{Closure, Level, combine, compile_convex, compile_wide};
 use crate::catalogue::{Combination, Operation, with_compiled_blend};
 use crate::num::{Dual, F64x32, Number, Vec3};
 use crate::scene::{Node, Shape};
+use std::sync::Arc;
 
 /// The field of a combination, by its leaves.
 pub struct Thicket {
@@ -28,7 +29,7 @@ struct Leaf {
 #[derive(Clone, Debug, PartialEq)]
 enum Branch {
     Leaf(usize),
-    Join(Combination, Vec<Branch>),
+    Join(Arc<Combination>, Vec<Branch>),
 }
 
 /// The values that a field takes in a ball.
@@ -166,7 +167,7 @@ impl Thicket {
 fn branch(node: &Node, leaf: &mut dyn FnMut(&Node) -> usize) -> Branch {
     match node.shape() {
         Shape::Combination(combination, children) if can_thin(combination) => Branch::Join(
-            combination.clone(),
+            Arc::new(combination.clone()),
             children.iter().map(|child| branch(child, leaf)).collect(),
         ),
         _ => Branch::Leaf(leaf(node)),
@@ -287,7 +288,6 @@ mod tests {
     use super::*;
     use crate::catalogue::{AnyBlend, AnyModifier, AnyPrimitive, Smooth, Sphere, Translate};
     use crate::num::Lanes;
-    use std::sync::Arc;
 
     /// Numbers in [0, 1) from a counter. Source: the finalizer of MurmurHash3.
     fn random(i: u64) -> f64 {

@@ -58,8 +58,8 @@ pub struct Marched {
     node: Arc<Node>,
     /// What [`Marched::ranges`] gives, once it was asked for.
     ranges: OnceLock<Closure<Dual<Interval, 1>>>,
-    /// The field and its gradient.
-    pub gradient: Closure<Dual<f64, 3>>,
+    /// What [`Marched::gradient`] gives, once it was asked for.
+    gradient: OnceLock<Closure<Dual<f64, 3>>>,
     /// The field and its derivative along a direction over wide lanes, for gradients; none for fields with graphs.
     pub gradient_wide: Option<Closure<Dual<F64x32, 1>>>,
     /// The gradient of a field with graphs over wide lanes, once it was asked for; none where that would be too large.
@@ -164,8 +164,11 @@ impl Marched {
             wide: compile_convex(node, level),
             single: compile_convex(node, Level::Baseline),
         });
-        let gradient_wide =
-            (demands.lanes && !node.has_graph()).then(|| compile_convex(node, level));
+        let is_plain = demands.lanes && !node.has_graph();
+        let gradient_wide = match &slope {
+            Some(slope) => Some(slope.wide.clone()),
+            None => is_plain.then(|| compile_convex(node, level)),
+        };
         let leaf_constant = |leaf: &Node| leaf.lipschitz_over(region);
         let thicket = demands
             .lanes
@@ -181,10 +184,15 @@ impl Marched {
             value: compile_wide(node, level),
             single: compile(node),
             slope,
-            gradient: compile(node),
+            gradient: OnceLock::new(),
             ranges: OnceLock::new(),
             node: shape,
         })
+    }
+
+    /// The field and its gradient, compiled when they are first asked for.
+    pub fn gradient(&self) -> &Closure<Dual<f64, 3>> {
+        self.gradient.get_or_init(|| compile(&self.node))
     }
 
     /// The ranges of the field and of its derivative along a ray, compiled when they are first asked for.
@@ -194,9 +202,9 @@ impl Marched {
 }
 
 impl Marched {
-    /// The gradient of the field of `node`, which is this part's, over wide lanes.
-    pub fn gradient_graph(&self, node: &Node, level: Level) -> Option<&Walked<F64x32>> {
-        let graph = || Some(compile_graph(&Arc::new(node.gradient()?), level));
+    /// The gradient of a field with graphs over wide lanes; none where that would be too large.
+    pub fn gradient_graph(&self, level: Level) -> Option<&Walked<F64x32>> {
+        let graph = || Some(compile_graph(&Arc::new(self.node.gradient()?), level));
         self.gradient_graph.get_or_init(graph).as_ref()
     }
 }

@@ -392,13 +392,12 @@ impl World {
                 (Some(thicket), Some(left)) => thicket.slope(left),
                 _ => None,
             };
-            let node = &self.parts[visit.number as usize].node;
             let slope = thinned.as_ref().or(visit.marched.gradient_wide.as_ref());
             let source = match slope {
                 Some(slope) => Some(Derivatives::Along(slope)),
                 None => visit
                     .marched
-                    .gradient_graph(node, self.level)
+                    .gradient_graph(self.level)
                     .map(Derivatives::All),
             };
             if let Some(source) = source {

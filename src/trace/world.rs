@@ -507,7 +507,7 @@ impl World {
                 let back = ending
                     .error
                     .max(self.settings.tolerance * ray.footprint.at(ending.t));
-                normal(&marched.gradient, point, ray.direction, back)
+                normal(marched.gradient(), point, ray.direction, back)
             }
         }
     }

@@ -3,7 +3,7 @@
 /// Which way rays find surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
-    /// Spheres, planes and triangles analytically, convex shapes by their slope, the rest by certified sphere tracing in lanes,
+    /// Spheres, planes, boxes and triangles analytically, convex shapes by their slope, the rest by certified sphere tracing in lanes,
     /// through combinations that are thinned out.
     Auto,
     /// Certified sphere tracing everywhere: hits are changes of sign.

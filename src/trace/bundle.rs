@@ -1,6 +1,6 @@
 //! Bundles: up to 256 rays with what they found so far, side by side in arrays, so that lanes work on all of them.
 
-use super::analytic::{Ball, Crossing, HalfSpace};
+use super::analytic::{Ball, Block, Crossing, HalfSpace};
 use super::{Outcome, Ray, Verdict};
 use crate::catalogue::Bounds;
 use crate::field::Task;
@@ -280,6 +280,30 @@ impl Task for EnterHalfSpace<'_> {
         for i in 0..n {
             let (o, d) = (place(&b.origin, i), place(&b.direction, i));
             let (t, error) = self.plane.crossing(o, d);
+            b.enter[i] = if t <= b.limit[i] { t } else { f64::INFINITY };
+            b.leave[i] = error;
+        }
+    }
+}
+
+/// Asks where the rays of a bundle enter a box.
+pub(super) struct EnterBlock<'a> {
+    /// The rays; the entries are written to `enter`, the errors to `leave`.
+    pub bundle: &'a mut Bundle,
+    /// The box.
+    pub block: &'a Block,
+}
+
+impl Task for EnterBlock<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let b = self.bundle;
+        let n = b.count.next_multiple_of(WIDTH).min(CAPACITY);
+        for i in 0..n {
+            let (o, d) = (place(&b.origin, i), place(&b.direction, i));
+            let (t, error) = self.block.crossing(o, d);
             b.enter[i] = if t <= b.limit[i] { t } else { f64::INFINITY };
             b.leave[i] = error;
         }

@@ -1,6 +1,6 @@
 //! The parts of a world: what a hard union at the root falls apart into.
 
-use super::analytic::{Ball, Facet, HalfSpace};
+use super::analytic::{Ball, Block, Facet, HalfSpace};
 use super::method::{Demands, Reach};
 use crate::catalogue::Modifier;
 use crate::catalogue::{AnyPrimitive, Bounds, Combination, Operation, with_modifier};
@@ -18,6 +18,8 @@ pub enum PartKind {
     Ball(Ball),
     /// A half-space, in closed form.
     HalfSpace(HalfSpace),
+    /// A box with faces across the axes, in closed form.
+    Block(Block),
     /// A triangle, in closed form.
     Facet(Facet),
     /// Anything else, by its field.
@@ -30,6 +32,7 @@ impl PartKind {
         match self {
             Self::Ball(_) => "analytic sphere",
             Self::HalfSpace(_) => "analytic plane",
+            Self::Block(_) => "analytic box",
             Self::Facet(_) => "analytic triangle",
             Self::Marched(m) if m.slope.is_some() => "convex: by slope",
             Self::Marched(m) if m.thicket.is_some() => "sphere tracing, thinned out",
@@ -108,6 +111,7 @@ impl Part {
         let bounds = match &kind {
             PartKind::Ball(ball) => ball.bounds(),
             PartKind::HalfSpace(_) => Bounds::EVERYWHERE,
+            PartKind::Block(block) => widened(block.bounds()),
             PartKind::Facet(facet) => facet.bounds(),
             PartKind::Marched(marched) => marched.region,
         };
@@ -282,7 +286,7 @@ fn of_field(field: &FieldShape, parts: &[Graph]) -> Option<Vec<Arc<Node>>> {
     parts.iter().map(part).collect()
 }
 
-/// The closed form of a shape that is a sphere, plane or triangle under transforms that keep angles.
+/// The closed form of a shape that is a sphere, plane, box or triangle under transforms that keep angles.
 fn entry(node: &Node) -> Option<PartKind> {
     let (map, inner) = node.unplaced();
     let Shape::Primitive(primitive) = inner.shape() else {
@@ -300,6 +304,12 @@ fn entry(node: &Node) -> Option<PartKind> {
             Some(PartKind::HalfSpace(HalfSpace {
                 normal,
                 offset: normal.dot(foot),
+            }))
+        }
+        AnyPrimitive::Cuboid(b) if b.round == 0.0 && map.is_translation() => {
+            Some(PartKind::Block(Block {
+                centre: outside([0.0; 3]),
+                half: 0.5 * DVec3::from_array(b.size),
             }))
         }
         AnyPrimitive::Triangle(t) => Some(PartKind::Facet(Facet::new([

@@ -6,7 +6,7 @@
 
 use super::analytic::Crossing;
 use super::beam::Beam;
-use super::bundle::{Bundle, CAPACITY, Clip, EnterBall, EnterHalfSpace, WIDTH};
+use super::bundle::{Bundle, CAPACITY, Clip, EnterBall, EnterBlock, EnterHalfSpace, WIDTH};
 use super::inclines::{Derivatives, Gradient};
 use super::newton::Newton;
 use super::packet::{Found, Packet, Rules};
@@ -174,6 +174,10 @@ impl World {
             }
             PartKind::HalfSpace(plane) => {
                 run_at(self.level, EnterHalfSpace { bundle, plane });
+                take(bundle, number, any)
+            }
+            PartKind::Block(block) => {
+                run_at(self.level, EnterBlock { bundle, block });
                 take(bundle, number, any)
             }
             PartKind::Facet(facet) => {

@@ -344,6 +344,7 @@ impl World {
                 let crossing = match &part.kind {
                     PartKind::Ball(ball) => ball.enter(ray),
                     PartKind::HalfSpace(plane) => plane.enter(ray),
+                    PartKind::Block(block) => block.enter(ray),
                     PartKind::Facet(facet) => facet.enter(ray),
                     PartKind::Marched(_) => {
                         search.candidates.push((enter, number));
@@ -502,6 +503,7 @@ impl World {
         match &self.parts[part as usize].kind {
             PartKind::Ball(ball) => ball.normal(point),
             PartKind::HalfSpace(plane) => plane.normal,
+            PartKind::Block(block) => block.normal(point),
             PartKind::Facet(facet) => facet.normal,
             PartKind::Marched(marched) => {
                 let back = ending

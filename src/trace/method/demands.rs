@@ -16,7 +16,7 @@ pub enum Reach {
 /// The demands of a method.
 #[derive(Clone, Copy, Debug)]
 pub struct Demands {
-    /// Whether spheres, planes and triangles are entered in closed form.
+    /// Whether spheres, planes, boxes and triangles are entered in closed form.
     pub closed_forms: bool,
     /// Whether derivatives along rays are wanted of convex fields.
     pub slopes: bool,

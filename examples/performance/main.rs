@@ -20,6 +20,9 @@ use peers::Peers;
 use std::error::Error;
 use std::path::PathBuf;
 
+/// Where people write why a target is not reached, and what was tried.
+const NOTES: &str = "docs/performance-notes.md";
+
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
 /// How it is measured.
@@ -58,9 +61,15 @@ fn main() -> Outcome<()> {
     text.push_str(&evaluation::section(&peers)?);
     text.push_str(&start::section(&options)?);
     text.push_str(&instructions::section()?);
+    text.push_str(&notes());
     write(&options.output, text.as_bytes())?;
     eprintln!("wrote {}", options.output.display());
     Ok(())
+}
+
+/// What is to be said about the figures, from a file beside the document: it is written by people and kept.
+fn notes() -> String {
+    std::fs::read_to_string(NOTES).map_or(String::new(), |notes| format!("\n{notes}"))
 }
 
 fn introduction(options: &Options, peers: &Peers) -> String {
@@ -75,8 +84,8 @@ cargo build --release
 cargo run --release --example performance -- --peers peers.csv
 ```
 
-Times are the median of the rounds, with the smallest and the one that three quarters don't exceed. Those of one table were \
-measured in turns; do not compare them with other machines or days. {}
+Times are the median of the rounds, with the smallest and the one that three quarters don't exceed; ratios to peers take the \
+smallest, and the peers' processor seconds: neighbours disturb them least. Compare nothing with other machines or days. {}
 
 `peers.csv` has the columns `scene,what,peer,value,p99,missed,wrong`. `what` is `whole` or `object` (the value is seconds), \
 `evaluation` (million points a second), or `error` (seconds at 640 x 360, the error of depth in scene units that 99 % of the hits don't \

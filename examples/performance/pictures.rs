@@ -161,7 +161,7 @@ fn row(target: &Target, pictures: &[Timed], peers: &Peers, errors: &[Judged]) ->
     let theirs = peers.value(scene, what, peer);
     let ratio = ours
         .zip(theirs)
-        .map(|(ours, theirs)| theirs * 1e3 / ours.median);
+        .map(|(ours, theirs)| theirs * 1e3 / ours.minimum);
     let judged = errors.iter().find(|j| j.scene == *scene && j.what == *what);
     let or_not = |cell: Option<String>| cell.unwrap_or(NOT_MEASURED.into());
     let picture = match (*what, *scene) {

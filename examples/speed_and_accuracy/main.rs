@@ -25,7 +25,7 @@ const SCENES: [&str; 6] = [
 ];
 
 /// How large the pictures are, and how often everything is timed.
-const PICTURES: [&str; 4] = ["--size", "96x54", "--rounds", "3"];
+const PICTURES: [&str; 4] = ["--size", "96x54", "--rounds", "4"];
 
 /// The further charts, with their options.
 const STUDIES: [(&str, &[&str]); 6] = [

@@ -24,6 +24,9 @@ const CROWD: usize = 24;
 /// The same for what fits into one packet.
 const SMALL_CROWD: usize = 64;
 
+/// Lists of parts up to this length are gone through again when a bundle is divided.
+const SHORT: usize = 256;
+
 /// A beam that starts wider than this share of a combination is divided, so that thinning it out is of use.
 const TOO_WIDE: f64 = 0.1;
 
@@ -86,15 +89,17 @@ impl World {
         });
         let mut numbers: Vec<u32> = (0..rays.len() as u32).collect();
         for numbers in numbers.chunks_mut(CAPACITY) {
-            self.sweep_bundle(rays, numbers, question, &mut scratch, answer);
+            self.sweep_bundle(rays, numbers, None, question, &mut scratch, answer);
         }
         SCRATCH.with(|cell| cell.set(Some(scratch)));
     }
 
+    /// The sweep of the rays with these numbers, which can meet only the parts `known`, if these are given.
     fn sweep_bundle(
         &self,
         rays: &[Ray],
         numbers: &mut [u32],
+        known: Option<&[(f64, u32)]>,
         question: &Question,
         scratch: &mut Scratch,
         answer: &mut dyn FnMut(&Bundle, &[u32]),
@@ -102,15 +107,29 @@ impl World {
         let some = numbers.iter().map(|number| &rays[*number as usize]);
         let beam = Beam::around(some.clone());
         let limit = some.fold(0.0, |a: f64, ray| a.max(ray.t_max));
-        self.meet(&beam, limit, question, &mut scratch.candidates);
+        match known {
+            Some(known) => {
+                let still = |(_, number): &(f64, u32)| {
+                    let bounds = &self.parts[*number as usize].bounds;
+                    beam.enters(bounds, limit).map(|enter| (enter, *number))
+                };
+                scratch.candidates.clear();
+                scratch.candidates.extend(known.iter().filter_map(still));
+            }
+            None => self.meet(&beam, limit, question, &mut scratch.candidates),
+        }
         if self.is_crowd(&beam, numbers.len(), &scratch.candidates) {
             let is_first = beam.divide(self.horizon);
             numbers.sort_by_key(|number| !is_first(&rays[*number as usize]));
             let half = numbers.partition_point(|number| is_first(&rays[*number as usize]));
             if half > 0 && half < numbers.len() {
                 let (first, second) = numbers.split_at_mut(half);
-                self.sweep_bundle(rays, first, question, scratch, answer);
-                self.sweep_bundle(rays, second, question, scratch, answer);
+                // What the halves meet is among few parts; of many, the hierarchy finds it sooner.
+                let is_short = scratch.candidates.len() <= SHORT;
+                let met = is_short.then(|| scratch.candidates.clone());
+                let known = met.as_deref();
+                self.sweep_bundle(rays, first, known, question, scratch, answer);
+                self.sweep_bundle(rays, second, known, question, scratch, answer);
                 return;
             }
         }

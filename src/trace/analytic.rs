@@ -16,6 +16,25 @@ pub struct Crossing {
     pub error: f64,
 }
 
+/// A surface that rays enter in closed form.
+pub trait ClosedForm {
+    /// Where a half-line first crosses the surface in front of its origin, and a bound of the error of that; infinite where
+    /// it does not. A crossing that the origin itself lies on does not count. Without branches where it serves in lanes.
+    fn crossing(&self, origin: DVec3, direction: DVec3) -> (f64, f64);
+
+    /// Whether a line may meet the surface: false only where it surely does not. Cheaper than a crossing.
+    #[inline(always)]
+    fn may_meet(&self, _origin: DVec3, _direction: DVec3) -> bool {
+        true
+    }
+
+    /// The first crossing in front of the ray's origin.
+    fn enter(&self, ray: &Ray) -> Option<Crossing> {
+        let (t, error) = self.crossing(ray.origin, ray.direction);
+        (t < f64::INFINITY).then_some(Crossing { t, error })
+    }
+}
+
 /// A sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
@@ -34,47 +53,6 @@ impl Ball {
     /// The outward unit normal at a point of the surface.
     pub fn normal(&self, p: DVec3) -> DVec3 {
         (p - self.centre) / (p - self.centre).length()
-    }
-
-    /// The first crossing in front of the ray's origin; one that the origin itself lies on does not count.
-    ///
-    /// The geometric form with a discriminant that does not cancel: h = r^2 - |q - (q.d) d|^2 with q the vector from
-    /// the centre to the origin. Source: Haines et al., Ray Tracing Gems chapter 7.
-    pub fn enter(&self, ray: &Ray) -> Option<Crossing> {
-        let (t, error) = self.crossing(ray.origin, ray.direction);
-        (t < f64::INFINITY).then_some(Crossing { t, error })
-    }
-
-    /// Whether a line may meet the sphere: false only where it surely does not. For lanes.
-    #[inline(always)]
-    pub(super) fn may_meet(&self, origin: DVec3, direction: DVec3) -> bool {
-        let q = origin - self.centre;
-        let foot = q - direction * q.dot(direction);
-        let rounding = 64.0 * U * q.dot(q);
-        let radius = self.radius * self.radius * (1.0 + 1e-9) + rounding;
-        foot.dot(foot) <= radius
-    }
-
-    /// [`Ball::enter`] without branches, for lanes: the distance, infinite where there is no crossing, and its error.
-    #[inline(always)]
-    pub(super) fn crossing(&self, origin: DVec3, direction: DVec3) -> (f64, f64) {
-        let (near, far, half_chord) = self.roots(origin, direction);
-        let size = (origin - self.centre).length() + self.radius;
-        // The foot of the perpendicular is known to a few roundings of `size`, its square to a few of size * radius.
-        // Where the ray is tangent, half the chord itself is known to the root of that only.
-        let place = 8.0 * U * size;
-        let tangent = (2.0 * self.radius * place).sqrt();
-        let chord = if half_chord > tangent {
-            half_chord
-        } else {
-            tangent
-        };
-        let error = place * (1.0 + self.radius / chord);
-        let on_surface = 16.0 * U * size;
-        let t = if near > on_surface { near } else { far };
-        // Also where the roots are not numbers.
-        let is_ahead = t > on_surface;
-        (if is_ahead { t } else { f64::INFINITY }, error)
     }
 
     /// Both crossings of the line in order, and half their distance; not numbers where the line does not meet the sphere.
@@ -104,6 +82,40 @@ impl Ball {
     }
 }
 
+impl ClosedForm for Ball {
+    /// The geometric form with a discriminant that does not cancel: h = r^2 - |q - (q.d) d|^2 with q the vector from
+    /// the centre to the origin. Source: Haines et al., Ray Tracing Gems chapter 7.
+    #[inline(always)]
+    fn crossing(&self, origin: DVec3, direction: DVec3) -> (f64, f64) {
+        let (near, far, half_chord) = self.roots(origin, direction);
+        let size = (origin - self.centre).length() + self.radius;
+        // The foot of the perpendicular is known to a few roundings of `size`, its square to a few of size * radius.
+        // Where the ray is tangent, half the chord itself is known to the root of that only.
+        let place = 8.0 * U * size;
+        let tangent = (2.0 * self.radius * place).sqrt();
+        let chord = if half_chord > tangent {
+            half_chord
+        } else {
+            tangent
+        };
+        let error = place * (1.0 + self.radius / chord);
+        let on_surface = 16.0 * U * size;
+        let t = if near > on_surface { near } else { far };
+        // Also where the roots are not numbers.
+        let is_ahead = t > on_surface;
+        (if is_ahead { t } else { f64::INFINITY }, error)
+    }
+
+    #[inline(always)]
+    fn may_meet(&self, origin: DVec3, direction: DVec3) -> bool {
+        let q = origin - self.centre;
+        let foot = q - direction * q.dot(direction);
+        let rounding = 64.0 * U * q.dot(q);
+        let radius = self.radius * self.radius * (1.0 + 1e-9) + rounding;
+        foot.dot(foot) <= radius
+    }
+}
+
 /// The distances at which a line meets a sphere, by the geometric form of the textbook: the foot of the perpendicular
 /// from the centre, then the right triangle with the radius as hypotenuse. The classical discriminant |q|^2 - (q.d)^2
 /// cancels for small far spheres; here the foot itself is measured.
@@ -130,16 +142,10 @@ pub struct HalfSpace {
     pub offset: f64,
 }
 
-impl HalfSpace {
-    /// The crossing in front of the ray's origin; a parallel ray, and one that starts on the plane, has none.
-    pub fn enter(&self, ray: &Ray) -> Option<Crossing> {
-        let (t, error) = self.crossing(ray.origin, ray.direction);
-        (t < f64::INFINITY).then_some(Crossing { t, error })
-    }
-
-    /// [`HalfSpace::enter`] without branches, for lanes: the distance, infinite where there is no crossing, and its error.
+impl ClosedForm for HalfSpace {
+    /// A parallel ray, and one that starts on the plane, has no crossing.
     #[inline(always)]
-    pub(super) fn crossing(&self, origin: DVec3, direction: DVec3) -> (f64, f64) {
+    fn crossing(&self, origin: DVec3, direction: DVec3) -> (f64, f64) {
         let slope = self.normal.dot(direction);
         let height = self.normal.dot(origin) - self.offset;
         let noise = 4.0 * U * (origin.abs().dot(self.normal.abs()) + self.offset.abs());
@@ -178,18 +184,12 @@ impl Block {
         });
         DVec3::AXES[face] * q[face].signum()
     }
+}
 
-    /// The first crossing in front of the ray's origin; one that the origin itself lies on does not count, and neither does
-    /// a touch of an edge.
-    pub fn enter(&self, ray: &Ray) -> Option<Crossing> {
-        let (t, error) = self.crossing(ray.origin, ray.direction);
-        (t < f64::INFINITY).then_some(Crossing { t, error })
-    }
-
-    /// [`Block::enter`] without branches, for lanes: the distance, infinite where there is no crossing, and its error.
-    /// Source: Kay and Kajiya 1986.
+impl ClosedForm for Block {
+    /// A touch of an edge does not count. Source: Kay and Kajiya 1986.
     #[inline(always)]
-    pub(super) fn crossing(&self, origin: DVec3, direction: DVec3) -> (f64, f64) {
+    fn crossing(&self, origin: DVec3, direction: DVec3) -> (f64, f64) {
         let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
         let (mut enter_error, mut leave_error) = (0.0, 0.0);
         for axis in 0..3 {
@@ -244,30 +244,26 @@ impl Facet {
     pub fn bounds(&self) -> Bounds {
         Bounds::around(self.corners.map(|c| c.to_array()))
     }
+}
 
-    /// The crossing in front of the ray's origin: where the ray meets the plane, if that point is on the same side of
-    /// every edge. The border belongs to the triangle, up to rounding, so that nothing leaks between neighbours.
-    pub fn enter(&self, ray: &Ray) -> Option<Crossing> {
-        self.crossing(ray.origin, ray.direction)
-    }
-
-    /// [`Facet::enter`] for a half-line.
-    pub(super) fn crossing(&self, origin: DVec3, direction: DVec3) -> Option<Crossing> {
+impl ClosedForm for Facet {
+    /// Where the ray meets the plane, if that point is on the same side of every edge. The border belongs to the triangle, up
+    /// to rounding, so that nothing leaks between neighbours.
+    fn crossing(&self, origin: DVec3, direction: DVec3) -> (f64, f64) {
         let plane = HalfSpace {
             normal: self.normal,
             offset: self.normal.dot(self.corners[0]),
         };
         let (t, error) = plane.crossing(origin, direction);
-        let crossing = (t < f64::INFINITY).then_some(Crossing { t, error })?;
         let p = origin + direction * t;
         let [a, b, c] = self.corners;
         let is_inside = [(a, b), (b, c), (c, a)].iter().all(|(from, to)| {
             let (edge, arm) = (*to - *from, p - *from);
-            let noise = 8.0 * U * edge.length() * (arm.length() + p.length())
-                + crossing.error * edge.length();
+            let noise =
+                8.0 * U * edge.length() * (arm.length() + p.length()) + error * edge.length();
             edge.cross(arm).dot(self.normal) >= -noise
         });
-        is_inside.then_some(crossing)
+        (if is_inside { t } else { f64::INFINITY }, error)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Bundles: up to 256 rays with what they found so far, side by side in arrays, so that lanes work on all of them.
 
-use super::analytic::{Ball, Block, Crossing, HalfSpace};
+use super::analytic::{ClosedForm, Crossing};
 use super::{Outcome, Ray, Verdict};
 use crate::catalogue::Bounds;
 use crate::field::Task;
@@ -228,16 +228,16 @@ impl Task for Clip<'_> {
     }
 }
 
-/// Asks where the rays of a bundle enter a sphere.
-pub(super) struct EnterBall<'a> {
+/// Asks where the rays of a bundle enter a surface.
+pub(super) struct Enter<'a, F> {
     /// The rays; the entries are written to `enter`, the errors to `leave`.
     pub bundle: &'a mut Bundle,
-    /// The sphere.
-    pub ball: &'a Ball,
+    /// The surface.
+    pub form: &'a F,
 }
 
-impl Task for EnterBall<'_> {
-    /// Whether any ray may meet the sphere; if not, nothing was written.
+impl<F: ClosedForm> Task for Enter<'_, F> {
+    /// Whether any ray may meet the surface; if not, nothing was written.
     type Output = bool;
 
     #[inline(always)]
@@ -247,66 +247,18 @@ impl Task for EnterBall<'_> {
         let mut is_met = false;
         for i in 0..n {
             let (o, d) = (place(&b.origin, i), place(&b.direction, i));
-            is_met |= self.ball.may_meet(o, d);
+            is_met |= self.form.may_meet(o, d);
         }
         if !is_met {
             return false;
         }
         for i in 0..n {
             let (o, d) = (place(&b.origin, i), place(&b.direction, i));
-            let (t, error) = self.ball.crossing(o, d);
+            let (t, error) = self.form.crossing(o, d);
             b.enter[i] = if t <= b.limit[i] { t } else { f64::INFINITY };
             b.leave[i] = error;
         }
         true
-    }
-}
-
-/// Asks where the rays of a bundle cross a plane.
-pub(super) struct EnterHalfSpace<'a> {
-    /// The rays; the crossings are written to `enter`, the errors to `leave`.
-    pub bundle: &'a mut Bundle,
-    /// The plane.
-    pub plane: &'a HalfSpace,
-}
-
-impl Task for EnterHalfSpace<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let b = self.bundle;
-        let n = b.count.next_multiple_of(WIDTH).min(CAPACITY);
-        for i in 0..n {
-            let (o, d) = (place(&b.origin, i), place(&b.direction, i));
-            let (t, error) = self.plane.crossing(o, d);
-            b.enter[i] = if t <= b.limit[i] { t } else { f64::INFINITY };
-            b.leave[i] = error;
-        }
-    }
-}
-
-/// Asks where the rays of a bundle enter a box.
-pub(super) struct EnterBlock<'a> {
-    /// The rays; the entries are written to `enter`, the errors to `leave`.
-    pub bundle: &'a mut Bundle,
-    /// The box.
-    pub block: &'a Block,
-}
-
-impl Task for EnterBlock<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let b = self.bundle;
-        let n = b.count.next_multiple_of(WIDTH).min(CAPACITY);
-        for i in 0..n {
-            let (o, d) = (place(&b.origin, i), place(&b.direction, i));
-            let (t, error) = self.block.crossing(o, d);
-            b.enter[i] = if t <= b.limit[i] { t } else { f64::INFINITY };
-            b.leave[i] = error;
-        }
     }
 }
 

@@ -3,8 +3,6 @@
 //! Source: Wald 2007, binned building by the surface area heuristic, here with the median of the longest axis, which is
 //! within a few per cent for the even distributions that scripts make.
 
-use super::Ray;
-use super::beam::Beam;
 use crate::catalogue::Bounds;
 use glam::DVec3;
 
@@ -76,59 +74,9 @@ impl Hierarchy {
         self.build(second);
     }
 
-    /// Calls `visit` with every part whose box the ray meets before `limit`, and where it enters the box; `visit` gives
-    /// the new limit.
-    pub fn visit(&self, ray: &Ray, mut limit: f64, mut visit: impl FnMut(u32, f64) -> f64) {
-        if self.branches.is_empty() {
-            return;
-        }
-        let inverse = ray.direction.recip();
-        let mut stack = [0u32; 64];
-        let mut height = 1;
-        while height > 0 {
-            height -= 1;
-            let here = stack[height] as usize;
-            let branch = &self.branches[here];
-            let Some((enter, _)) = clip(ray.origin, inverse, &branch.bounds, limit) else {
-                continue;
-            };
-            if branch.count > 0 {
-                let start = branch.start as usize;
-                for part in &self.order[start..start + branch.count as usize] {
-                    limit = visit(*part, enter).min(limit);
-                }
-                continue;
-            }
-            // The nearer child is visited first, so that the limit falls early.
-            let (first, second) = (here + 1, branch.start as usize);
-            let near = |i: usize| {
-                clip(ray.origin, inverse, &self.branches[i].bounds, limit).map(|(enter, _)| enter)
-            };
-            let (a, b) = (near(first), near(second));
-            let swap = matches!((a, b), (Some(a), Some(b)) if b < a);
-            let (near_child, far_child) = if swap {
-                (second, first)
-            } else {
-                (first, second)
-            };
-            for child in [far_child, near_child] {
-                let is_met = if child == first {
-                    a.is_some()
-                } else {
-                    b.is_some()
-                };
-                if is_met {
-                    stack[height] = child as u32;
-                    height += 1;
-                }
-            }
-        }
-    }
-}
-
-impl Hierarchy {
-    /// Calls `visit` with every part in a leaf whose box the beam meets before `limit`.
-    pub fn visit_beam(&self, beam: &Beam, limit: f64, mut visit: impl FnMut(u32)) {
+    /// Calls `visit` with every part of the leaves whose boxes `enters` finds met, and with what it gave for the leaf: where
+    /// that is entered.
+    pub fn visit(&self, enters: impl Fn(&Bounds) -> Option<f64>, mut visit: impl FnMut(u32, f64)) {
         if self.branches.is_empty() {
             return;
         }
@@ -138,13 +86,13 @@ impl Hierarchy {
             height -= 1;
             let here = stack[height] as usize;
             let branch = &self.branches[here];
-            if beam.enters(&branch.bounds, limit).is_none() {
+            let Some(enter) = enters(&branch.bounds) else {
                 continue;
-            }
+            };
             if branch.count > 0 {
                 let start = branch.start as usize;
                 let parts = &self.order[start..start + branch.count as usize];
-                parts.iter().for_each(|part| visit(*part));
+                parts.iter().for_each(|part| visit(*part, enter));
                 continue;
             }
             for child in [branch.start, here as u32 + 1] {

@@ -99,11 +99,7 @@ impl Part {
     /// # Errors
     /// If the shape has no finite Lipschitz constant.
     pub fn new(node: Arc<Node>, demands: Demands, level: Level) -> Result<Self, Fault> {
-        let analytic = if demands.closed_forms {
-            entry(&node)
-        } else {
-            None
-        };
+        let analytic = if demands.lanes { entry(&node) } else { None };
         let kind = match analytic {
             Some(kind) => kind,
             None => PartKind::Marched(Box::new(Marched::new(node.clone(), demands, level)?)),

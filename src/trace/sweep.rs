@@ -4,9 +4,9 @@
 //! combination is thinned out ball by ball along the beam. What is left out has no say on any of the rays, so no ray's
 //! result depends on the others. Sources: Barbier et al. 2025 for thinning; Boulos, Wald and Shirley 2006 for beams.
 
-use super::analytic::Crossing;
+use super::analytic::{ClosedForm, Crossing};
 use super::beam::Beam;
-use super::bundle::{Bundle, CAPACITY, Clip, EnterBall, EnterBlock, EnterHalfSpace, WIDTH};
+use super::bundle::{Bundle, CAPACITY, Clip, Enter, WIDTH};
 use super::inclines::{Derivatives, Gradient};
 use super::newton::Newton;
 use super::packet::{Found, Packet, Rules};
@@ -15,6 +15,7 @@ use super::stages::{Stage, stages};
 use super::stride::Stride;
 use super::world::World;
 use super::{Ray, Verdict};
+use crate::catalogue::Bounds;
 use crate::field::{Thinned, run_at};
 use std::cell::Cell;
 
@@ -174,7 +175,8 @@ impl World {
                 .filter(|n| is_seen(**n))
                 .map(|n| (0.0, *n)),
         );
-        self.hierarchy.visit_beam(beam, limit, |number| {
+        let enters = |bounds: &Bounds| beam.enters(bounds, limit);
+        self.hierarchy.visit(enters, |number, _| {
             let enter = beam.enters(&self.parts[number as usize].bounds, limit);
             met.extend(
                 enter
@@ -188,30 +190,10 @@ impl World {
     fn ask(&self, number: u32, beam: &Beam, any: bool, scratch: &mut Scratch) -> bool {
         let bundle = &mut *scratch.bundle;
         match &self.parts[number as usize].kind {
-            PartKind::Ball(ball) => {
-                run_at(self.level, EnterBall { bundle, ball }) && take(bundle, number, any)
-            }
-            PartKind::HalfSpace(plane) => {
-                run_at(self.level, EnterHalfSpace { bundle, plane });
-                take(bundle, number, any)
-            }
-            PartKind::Block(block) => {
-                run_at(self.level, EnterBlock { bundle, block });
-                take(bundle, number, any)
-            }
-            PartKind::Facet(facet) => {
-                let mut is_hit = false;
-                for ray in 0..bundle.count {
-                    let [o, d] = [&bundle.origin, &bundle.direction]
-                        .map(|c| [0, 1, 2].map(|axis| c[axis][ray]));
-                    if let Some(found) = facet.crossing(o.into(), d.into())
-                        && found.t <= bundle.limit[ray]
-                    {
-                        is_hit |= bundle.offer(ray, found, number, any);
-                    }
-                }
-                is_hit
-            }
+            PartKind::Ball(form) => self.enter(form, number, any, bundle),
+            PartKind::HalfSpace(form) => self.enter(form, number, any, bundle),
+            PartKind::Block(form) => self.enter(form, number, any, bundle),
+            PartKind::Facet(form) => self.enter(form, number, any, bundle),
             PartKind::Marched(marched) => {
                 let bounds = &marched.region;
                 run_at(self.level, Clip { bundle, bounds });
@@ -224,6 +206,24 @@ impl World {
                 !scratch.rays.is_empty() && self.march(marched, number, beam, any, scratch)
             }
         }
+    }
+
+    /// Takes where the rays enter a surface in closed form as hits; gives whether any is new.
+    fn enter<F: ClosedForm>(&self, form: &F, number: u32, any: bool, bundle: &mut Bundle) -> bool {
+        if !run_at(self.level, Enter { bundle, form }) {
+            return false;
+        }
+        let mut is_hit = false;
+        for ray in 0..bundle.count {
+            if bundle.enter[ray] < f64::INFINITY {
+                let found = Crossing {
+                    t: bundle.enter[ray],
+                    error: bundle.leave[ray],
+                };
+                is_hit |= bundle.offer(ray, found, number, any);
+            }
+        }
+        is_hit
     }
 
     /// Walks the rays that come into the region of a part through its field.
@@ -442,19 +442,4 @@ impl World {
 fn pair(packets: &mut [Box<Packet>], k: usize) -> [&mut Packet; 2] {
     let (own, mixed) = packets.split_at_mut(MIXED);
     [&mut own[k], &mut mixed[0]]
-}
-
-/// Takes the crossings in `enter`, with their errors in `leave`, as hits; gives whether any is new.
-fn take(bundle: &mut Bundle, number: u32, any: bool) -> bool {
-    let mut is_hit = false;
-    for ray in 0..bundle.count {
-        if bundle.enter[ray] < f64::INFINITY {
-            let found = Crossing {
-                t: bundle.enter[ray],
-                error: bundle.leave[ray],
-            };
-            is_hit |= bundle.offer(ray, found, number, any);
-        }
-    }
-    is_hit
 }

@@ -12,6 +12,7 @@ use super::part::{Marched, Part, PartKind, flatten};
 use super::survey::{resolved, survey};
 use super::sweep::Question;
 use super::{Occlusion, Outcome, Ray, Verdict};
+use crate::catalogue::Bounds;
 use crate::field::{Level, normal, shares};
 use crate::scene::{Fault, Material, Method, Node, Scene, Settings, Shadow};
 use glam::DVec3;
@@ -291,13 +292,10 @@ impl World {
         })
     }
 
-    /// Asks all parts, the closed forms first, then marches what is left part by part, nearest first. With `any`, a ray
-    /// is content with the first hit.
+    /// Marches rays through the parts that they meet, part by part, nearest first, by the methods that ask fields alone. With
+    /// `any`, a ray is content with the first hit.
     fn search(&self, rays: &[Ray], is_seen: &dyn Fn(&Part) -> bool, any: bool) -> Vec<Search> {
-        let mut searches: Vec<Search> = rays
-            .iter()
-            .map(|ray| self.begin(ray, is_seen, any))
-            .collect();
+        let mut searches: Vec<Search> = rays.iter().map(|ray| self.begin(ray, is_seen)).collect();
         loop {
             let mut jobs: BTreeMap<u32, Vec<Job>> = BTreeMap::new();
             for (number, (ray, search)) in rays.iter().zip(&mut searches).enumerate() {
@@ -329,49 +327,22 @@ impl World {
         }
     }
 
-    /// The closed forms on a ray, and which parts it has to be marched through.
-    fn begin(&self, ray: &Ray, is_seen: &dyn Fn(&Part) -> bool, any: bool) -> Search {
-        let mut search = Search {
+    /// The parts that a ray has to be marched through.
+    fn begin(&self, ray: &Ray, is_seen: &dyn Fn(&Part) -> bool) -> Search {
+        let mut candidates: Vec<(f64, u32)> = self.endless.iter().map(|n| (0.0, *n)).collect();
+        let inverse = ray.direction.recip();
+        let enters = |bounds: &Bounds| Some(clip(ray.origin, inverse, bounds, ray.t_max)?.0);
+        self.hierarchy
+            .visit(enters, |number, enter| candidates.push((enter, number)));
+        candidates.retain(|(_, number)| is_seen(&self.parts[*number as usize]));
+        candidates.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1)));
+        Search {
             best: None,
-            candidates: Vec::new(),
+            candidates,
             unknown: None,
             steps: 0,
             evaluations: 0,
-        };
-        let mut ask = |number: u32, enter: f64| {
-            let part = &self.parts[number as usize];
-            if is_seen(part) && !(any && search.best.is_some()) {
-                let crossing = match &part.kind {
-                    PartKind::Ball(ball) => ball.enter(ray),
-                    PartKind::HalfSpace(plane) => plane.enter(ray),
-                    PartKind::Block(block) => block.enter(ray),
-                    PartKind::Facet(facet) => facet.enter(ray),
-                    PartKind::Marched(_) => {
-                        search.candidates.push((enter, number));
-                        None
-                    }
-                };
-                if let Some(found) = crossing.filter(|c| c.t <= ray.t_max) {
-                    let ending = Ending {
-                        verdict: Verdict::Hit,
-                        t: found.t,
-                        error: found.error,
-                        steps: 0,
-                    };
-                    search.offer(ending, number);
-                }
-            }
-            search.limit(ray)
-        };
-        let limit = self
-            .endless
-            .iter()
-            .fold(ray.t_max, |_, number| ask(*number, 0.0));
-        self.hierarchy.visit(ray, limit, ask);
-        search
-            .candidates
-            .sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1)));
-        search
+        }
     }
 
     /// The next part that a ray has to be marched through, and where.

@@ -16,11 +16,10 @@ pub enum Reach {
 /// The demands of a method.
 #[derive(Clone, Copy, Debug)]
 pub struct Demands {
-    /// Whether spheres, planes, boxes and triangles are entered in closed form.
-    pub closed_forms: bool,
     /// Whether derivatives along rays are wanted of convex fields.
     pub slopes: bool,
-    /// Whether rays are walked in lanes, through combinations that are thinned out.
+    /// Whether rays are walked in lanes: spheres, planes, boxes and triangles are entered in closed form, combinations are
+    /// thinned out.
     pub lanes: bool,
     /// Where rays are followed.
     pub reach: Reach,
@@ -38,7 +37,6 @@ impl Demands {
             Method::Reference => Reach::Everywhere,
         };
         Self {
-            closed_forms: method == Method::Auto,
             lanes: method == Method::Auto,
             slopes: matches!(method, Method::Auto | Method::Convex),
             reach,

@@ -1,19 +1,18 @@
 //! Bundles: up to 256 rays with what they found so far, side by side in arrays, so that lanes work on all of them.
 
+use super::Ray;
 use super::analytic::{ClosedForm, Crossing};
-use super::{Outcome, Ray, Verdict};
+use super::finding::Finding;
 use crate::catalogue::Bounds;
 use crate::field::Task;
+use crate::num::F64x32;
 use glam::DVec3;
 
 /// How many rays a bundle holds: a block of 16 x 16 pixels.
 pub(super) const CAPACITY: usize = 256;
 
 /// How many lanes work at once.
-pub(super) const WIDTH: usize = 32;
-
-/// The number of no part.
-const NONE: u32 = u32::MAX;
+pub(super) const WIDTH: usize = F64x32::WIDTH;
 
 /// A number for each ray.
 pub(super) type Column = [f64; CAPACITY];
@@ -35,20 +34,10 @@ pub(super) struct Bundle {
     pub footprint: Column,
     /// By how much they grow with each scene unit.
     pub spread: Column,
-    /// The distances of the nearest hits.
-    pub t: Column,
-    /// Their errors.
-    pub error: Column,
-    /// The gradients there, not normalised; zero where they are still to be found.
+    /// What they found.
+    pub findings: [Finding; CAPACITY],
+    /// The gradients at their hits, not normalised; zero where they are still to be found.
     pub gradient: [Column; 3],
-    /// The parts that were hit.
-    pub part: [u32; CAPACITY],
-    /// How far each ray is known to be free where a walk could not tell; else infinite.
-    pub unknown: Column,
-    /// Steps taken.
-    pub steps: [u32; CAPACITY],
-    /// Evaluations of fields.
-    pub evaluations: [u32; CAPACITY],
     /// Where rays enter a box.
     pub enter: Column,
     /// Where they leave it; below the entry for those that miss it.
@@ -68,13 +57,8 @@ impl Bundle {
             t_max: column,
             footprint: column,
             spread: column,
-            t: column,
-            error: column,
+            findings: [Finding::NOTHING; CAPACITY],
             gradient: [column; 3],
-            part: [NONE; CAPACITY],
-            unknown: column,
-            steps: [0; CAPACITY],
-            evaluations: [0; CAPACITY],
             enter: column,
             leave: column,
         })
@@ -99,15 +83,10 @@ impl Bundle {
         self.limit[..self.count].copy_from_slice(&self.t_max[..numbers.len()]);
         // Lanes without a ray take part in nothing.
         self.limit[self.count..n].fill(-1.0);
-        self.t[..n].fill(f64::INFINITY);
-        self.error[..n].fill(0.0);
+        self.findings[..n].fill(Finding::NOTHING);
         for axis in &mut self.gradient {
             axis[..n].fill(0.0);
         }
-        self.part[..n].fill(NONE);
-        self.unknown[..n].fill(f64::INFINITY);
-        self.steps[..n].fill(0);
-        self.evaluations[..n].fill(0);
     }
 
     /// How far the farthest of the rays is still to be followed; negative where nothing is left to do.
@@ -115,78 +94,18 @@ impl Bundle {
         self.limit[..self.count].iter().fold(-1.0, |a, b| a.max(*b))
     }
 
-    /// Takes a hit if it is nearer than what the ray has; of two at the same place, that on the part declared first.
-    /// With `any`, the ray is content with it.
+    /// Offers a hit to a ray, as [`Finding::offer`]. With `any`, the ray is content with it.
     pub fn offer(&mut self, ray: usize, found: Crossing, part: u32, any: bool) -> bool {
-        if self.part[ray] != NONE {
-            let (best, its_error) = (self.t[ray], self.error[ray]);
-            let margin = found.error.min(its_error) + 4.0 * f64::EPSILON * best;
-            let is_nearer = if (found.t - best).abs() <= margin {
-                part < self.part[ray]
+        let is_taken = self.findings[ray].offer(found, part);
+        if is_taken {
+            (0..3).for_each(|axis| self.gradient[axis][ray] = 0.0);
+            self.limit[ray] = if any {
+                -1.0
             } else {
-                found.t < best
+                self.findings[ray].limit(self.t_max[ray])
             };
-            if !is_nearer {
-                return false;
-            }
         }
-        self.t[ray] = found.t;
-        self.error[ray] = found.error;
-        (0..3).for_each(|axis| self.gradient[axis][ray] = 0.0);
-        self.part[ray] = part;
-        self.limit[ray] = if any {
-            -1.0
-        } else {
-            (found.t + found.error).min(self.t_max[ray])
-        };
-        true
-    }
-
-    /// The verdict on a ray.
-    pub fn verdict(&self, ray: usize) -> Verdict {
-        let has_hit = self.part[ray] != NONE;
-        // A hit counts only if the ray is known to be free before it.
-        if has_hit && self.unknown[ray] >= self.t[ray] {
-            Verdict::Hit
-        } else if self.unknown[ray] < f64::INFINITY {
-            Verdict::Unknown
-        } else {
-            Verdict::Miss
-        }
-    }
-
-    /// The verdict on a ray that is content with any hit.
-    pub fn any_verdict(&self, ray: usize) -> Verdict {
-        if self.part[ray] != NONE {
-            Verdict::Hit
-        } else {
-            self.verdict(ray)
-        }
-    }
-
-    /// The outcome of a ray, with the direction of the gradient as normal.
-    pub fn outcome(&self, number: usize, ray: &Ray) -> Outcome {
-        let verdict = self.verdict(number);
-        let mut outcome = Outcome {
-            verdict,
-            steps: self.steps[number],
-            evaluations: self.evaluations[number],
-            ..Outcome::NOTHING
-        };
-        match verdict {
-            Verdict::Hit => {
-                outcome.t = self.t[number];
-                outcome.error = self.error[number];
-                outcome.point = ray.at(outcome.t);
-                outcome.part = self.part[number];
-            }
-            Verdict::Unknown => {
-                outcome.t = self.unknown[number];
-                outcome.error = f64::INFINITY;
-            }
-            Verdict::Miss => {}
-        }
-        outcome
+        is_taken
     }
 }
 

@@ -6,7 +6,8 @@
 )]
 
 use super::bundle::WIDTH;
-use super::packet::{Packet, Rules, finest, places, state};
+use super::method::finest;
+use super::packet::{Packet, Rules, places, state};
 use super::stride::SHYNESS;
 use crate::field::Closure;
 use crate::num::F64x32;

@@ -4,12 +4,10 @@
 //! the scalar closure, whose bits are the same.
 
 use super::Ray;
+use super::bundle::WIDTH;
 use super::method::{Ending, Segment, Walk};
 use super::part::Marched;
 use crate::num::{Dual, F64x32, Lanes, Vec3};
-
-/// How many lanes a packet has.
-const WIDTH: usize = 32;
 
 /// Below this many walks a packet costs more than its walks one by one (a packet of 32 takes about as long as three to
 /// four scalar evaluations).

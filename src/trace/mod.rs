@@ -9,6 +9,7 @@ pub mod analytic;
 mod beam;
 mod bundle;
 mod fan;
+mod finding;
 mod hierarchy;
 mod inclines;
 mod join;

@@ -3,7 +3,8 @@
 //! As `method/convex.rs`, which has the sources; a ray that starts inside is handed over to it.
 
 use super::bundle::WIDTH;
-use super::packet::{Lane, Packet, Rules, finest, state};
+use super::method::finest;
+use super::packet::{Lane, Packet, Rules, state};
 use crate::field::{Closure, Task};
 use crate::num::{Dual, F64x32, Lanes, Vec3};
 

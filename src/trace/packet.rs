@@ -7,7 +7,8 @@
 
 use super::Verdict;
 use super::bundle::{Bundle, WIDTH};
-use super::method::Ending;
+use super::hierarchy::stretch;
+use super::method::{Ending, finest};
 use super::part::Marched;
 use crate::num::{F64x32, Lanes, Vec3};
 
@@ -43,7 +44,8 @@ const GRID: f64 = 1.0 / (1u64 << 22) as f64;
 /// The smallest distance at which a footprint counts for the grid, in sizes of the scene.
 const NEAR: f64 = 1.0 / 1024.0;
 
-/// 32 rays on their way through one field.
+/// 32 rays on their way through one field; by default none.
+#[derive(Default)]
 pub(super) struct Packet {
     pub(super) origin: [Lane; 3],
     pub(super) direction: [Lane; 3],
@@ -112,50 +114,25 @@ pub(super) struct Found {
     pub ending: Ending,
 }
 
-/// All columns of a packet but those with three axes.
-macro_rules! columns {
-    ($do:ident) => {
-        $do! {
+/// Copies a lane of one packet to a lane of another, or of the same.
+macro_rules! copy_lane {
+    ($from:expr, $source:expr => $to:expr, $lane:expr) => {{
+        for axis in 0..3 {
+            $to.origin[axis][$lane] = $from.origin[axis][$source];
+            $to.direction[axis][$lane] = $from.direction[axis][$source];
+        }
+        copy_lane! {
+            $from, $source => $to, $lane;
             footprint spread size far grid finer start end limit t error side last_t last_value high_t high_value state departed
             has_last steps narrowings evaluations ray
         }
+    }};
+    ($from:expr, $source:expr => $to:expr, $lane:expr; $($column:ident)*) => {
+        $($to.$column[$lane] = $from.$column[$source];)*
     };
 }
 
 impl Packet {
-    /// A packet without rays.
-    pub fn new() -> Box<Self> {
-        let lane = [0.0; WIDTH];
-        Box::new(Self {
-            origin: [lane; 3],
-            direction: [lane; 3],
-            footprint: lane,
-            spread: lane,
-            size: lane,
-            far: lane,
-            grid: lane,
-            finer: lane,
-            start: lane,
-            end: lane,
-            limit: lane,
-            t: lane,
-            error: lane,
-            side: lane,
-            last_t: lane,
-            last_value: lane,
-            high_t: lane,
-            high_value: lane,
-            state: [state::IDLE; WIDTH],
-            departed: [0; WIDTH],
-            has_last: [0; WIDTH],
-            steps: [0; WIDTH],
-            narrowings: [0; WIDTH],
-            evaluations: [0; WIDTH],
-            ray: [0; WIDTH],
-            count: 0,
-        })
-    }
-
     /// Takes these rays of a bundle, at most 32, from where they enter the region to where they leave it.
     pub fn load(&mut self, bundle: &Bundle, rays: &[u32], rules: &Rules) {
         self.count = rays.len();
@@ -169,7 +146,8 @@ impl Packet {
                 self.direction[axis][lane] = bundle.direction[axis][ray];
                 origin = origin.max(o.abs());
             }
-            let (start, end) = stretch(bundle, ray, origin);
+            let (enter, leave) = (bundle.enter[ray], bundle.leave[ray]);
+            let (start, end) = stretch(origin, enter, leave, bundle.t_max[ray]);
             let (footprint, spread) = (bundle.footprint[ray], bundle.spread[ray]);
             let size = origin + rules.reach;
             let has_ray = lane < rays.len();
@@ -232,27 +210,13 @@ impl Packet {
 
     /// Takes over a lane of another packet, which is idle afterwards.
     pub fn adopt(&mut self, lane: usize, other: &mut Self, from: usize) {
-        macro_rules! copy {
-            ($($column:ident)*) => { $(self.$column[lane] = other.$column[from];)* };
-        }
-        for axis in 0..3 {
-            self.origin[axis][lane] = other.origin[axis][from];
-            self.direction[axis][lane] = other.direction[axis][from];
-        }
-        columns!(copy);
+        copy_lane!(other, from => self, lane);
         other.leave(from);
     }
 
     /// Moves a lane to another place.
     pub fn shift(&mut self, lane: usize, from: usize) {
-        macro_rules! copy {
-            ($($column:ident)*) => { $(self.$column[lane] = self.$column[from];)* };
-        }
-        for axis in 0..3 {
-            self.origin[axis][lane] = self.origin[axis][from];
-            self.direction[axis][lane] = self.direction[axis][from];
-        }
-        columns!(copy);
+        copy_lane!(self, from => self, lane);
         self.leave(from);
     }
 
@@ -335,19 +299,6 @@ impl Packet {
     }
 }
 
-/// Where a ray walks: its way through the region, with room for the rounding of places along it.
-fn stretch(bundle: &Bundle, ray: usize, origin: f64) -> (f64, f64) {
-    let slack = |t: f64| 32.0 * f64::EPSILON * (origin + t);
-    let (enter, leave) = (bundle.enter[ray], bundle.leave[ray]);
-    let start = (enter - slack(enter)).max(0.0);
-    let end = if leave == bundle.t_max[ray] {
-        leave
-    } else {
-        leave + slack(leave)
-    };
-    (start, end)
-}
-
 /// The spacing of the places where a ray's hits are enclosed: a power of two that depends on the ray and the part alone.
 fn grid(start: f64, size: f64, rules: &Rules, footprint: f64, spread: f64) -> f64 {
     let t = start.max(size * NEAR);
@@ -360,12 +311,6 @@ fn grid(start: f64, size: f64, rules: &Rules, footprint: f64, spread: f64) -> f6
 fn power_of_two(x: f64) -> f64 {
     let exponent = x.to_bits() & (0x7ff << 52);
     f64::from_bits(exponent).max(f64::MIN_POSITIVE)
-}
-
-/// The smallest difference of distances that rounding leaves at `t`.
-#[inline(always)]
-pub(super) fn finest(size: f64, t: f64) -> f64 {
-    4.0 * f64::EPSILON * if size > t { size } else { t }
 }
 
 fn is_walking(state: i64) -> bool {

@@ -202,6 +202,11 @@ impl Marched {
 }
 
 impl Marched {
+    /// Whether the shape has no finite bounds.
+    pub fn is_endless(&self) -> bool {
+        !self.region.is_finite()
+    }
+
     /// The gradient of a field with graphs over wide lanes; none where that would be too large.
     pub fn gradient_graph(&self, level: Level) -> Option<&Walked<F64x32>> {
         let graph = || Some(compile_graph(&Arc::new(self.node.gradient()?), level));

@@ -12,7 +12,8 @@
 
 use super::bundle::WIDTH;
 use super::fan::{STRAGGLERS, fan};
-use super::packet::{Lane, Packet, Rules, finest, places, state};
+use super::method::finest;
+use super::packet::{Lane, Packet, Rules, places, state};
 use crate::field::{Closure, Task};
 use crate::num::{F64x32, Number};
 

@@ -81,7 +81,7 @@ impl World {
         let mut scratch = scratch.unwrap_or_else(|| {
             Box::new(Scratch {
                 bundle: Bundle::new(),
-                packets: (0..=MIXED).map(|_| Packet::new()).collect(),
+                packets: (0..=MIXED).map(|_| Box::default()).collect(),
                 candidates: Vec::new(),
                 rays: Vec::new(),
                 found: Vec::new(),
@@ -235,18 +235,13 @@ impl World {
         any: bool,
         scratch: &mut Scratch,
     ) -> bool {
-        let is_endless = !marched.region.is_finite();
         let rules = Rules {
             lipschitz: marched.lipschitz,
             tolerance: self.settings.tolerance,
             max_steps: self.settings.max_steps,
-            reach: if is_endless {
-                self.horizon.max(marched.size)
-            } else {
-                marched.size
-            },
+            reach: self.reach(marched),
             extent: marched.region.radius_about_centre(),
-            is_endless,
+            is_endless: marched.is_endless(),
         };
         let rays = std::mem::take(&mut scratch.rays);
         let packets = rays.len().div_ceil(WIDTH);
@@ -289,8 +284,8 @@ impl World {
         for packet in &mut scratch.packets[..packets] {
             for lane in 0..packet.count {
                 let ray = packet.ray[lane] as usize;
-                scratch.bundle.steps[ray] += packet.steps[lane] as u32;
-                scratch.bundle.evaluations[ray] += packet.evaluations[lane] as u32;
+                scratch.bundle.findings[ray].steps += packet.steps[lane] as u32;
+                scratch.bundle.findings[ray].evaluations += packet.evaluations[lane] as u32;
             }
         }
         is_hit
@@ -386,8 +381,8 @@ impl World {
         let mut is_hit = false;
         for Found { lane, ending } in found.drain(..) {
             let ray = packet.ray[lane] as usize;
-            bundle.steps[ray] += packet.steps[lane] as u32;
-            bundle.evaluations[ray] += packet.evaluations[lane] as u32;
+            bundle.findings[ray].steps += packet.steps[lane] as u32;
+            bundle.findings[ray].evaluations += packet.evaluations[lane] as u32;
             (packet.steps[lane], packet.evaluations[lane]) = (0, 0);
             match ending.verdict {
                 Verdict::Hit => {
@@ -401,7 +396,7 @@ impl World {
                     }
                 }
                 Verdict::Miss => {}
-                Verdict::Unknown => bundle.unknown[ray] = bundle.unknown[ray].min(ending.t),
+                Verdict::Unknown => bundle.findings[ray].doubt(ending.t),
             }
         }
         is_hit

@@ -1,7 +1,8 @@
 //! The world: a scene that is ready to be traced.
 
-use super::bundle::Bundle;
-use super::hierarchy::{Hierarchy, clip};
+use super::analytic::Crossing;
+use super::finding::Finding;
+use super::hierarchy::{Hierarchy, clip, stretch};
 use super::join::joined;
 use super::march::{Job, Walked, march};
 use super::method::{
@@ -56,41 +57,11 @@ pub struct World {
     pub(super) level: Level,
 }
 
-/// What a ray knows while it is traced.
+/// A ray while it is traced by a method that asks fields alone.
 struct Search {
-    best: Option<(Ending, u32)>,
+    finding: Finding,
     /// Parts to be marched, the nearest last.
     candidates: Vec<(f64, u32)>,
-    /// How far the ray is known to be free where a walk could not tell.
-    unknown: Option<f64>,
-    steps: u32,
-    evaluations: u32,
-}
-
-impl Search {
-    fn limit(&self, ray: &Ray) -> f64 {
-        self.best.map_or(ray.t_max, |(ending, _)| {
-            (ending.t + ending.error).min(ray.t_max)
-        })
-    }
-
-    /// Takes a hit if it is nearer; of two at the same place, the one declared first.
-    fn offer(&mut self, ending: Ending, part: u32) {
-        let is_nearer = match self.best {
-            None => true,
-            Some((best, other)) => {
-                let margin = ending.error.min(best.error) + 4.0 * f64::EPSILON * best.t;
-                if (ending.t - best.t).abs() <= margin {
-                    part < other
-                } else {
-                    ending.t < best.t
-                }
-            }
-        };
-        if is_nearer {
-            self.best = Some((ending, part));
-        }
-    }
 }
 
 /// Whether a shape has its paint from the outside alone.
@@ -121,10 +92,10 @@ impl World {
             .into_iter()
             .map(|node| Part::new(node, demands, level))
             .collect::<Result<Vec<_>, _>>()?;
-        Ok(Self::of_parts(parts, *settings))
+        Ok(Self::of_parts(parts, *settings, level))
     }
 
-    fn of_parts(parts: Vec<Part>, settings: Settings) -> Self {
+    fn of_parts(parts: Vec<Part>, settings: Settings, level: Level) -> Self {
         let numbered = || {
             parts
                 .iter()
@@ -164,7 +135,7 @@ impl World {
             default,
             settings,
             horizon: reach,
-            level: Level::best(),
+            level,
             parts,
         }
     }
@@ -181,7 +152,8 @@ impl World {
             self.sweep(rays, &question, &mut |bundle, numbers| {
                 for (i, number) in numbers.iter().enumerate() {
                     let number = *number as usize;
-                    outcomes[number] = self.found(bundle, i, &rays[number]);
+                    let gradient = [0, 1, 2].map(|axis| bundle.gradient[axis][i]);
+                    outcomes[number] = self.outcome(&rays[number], &bundle.findings[i], gradient);
                 }
             });
             return outcomes;
@@ -189,47 +161,29 @@ impl World {
         let searches = self.search(rays, &is_seen, false);
         rays.iter()
             .zip(&searches)
-            .map(|(ray, search)| self.outcome(ray, search))
+            .map(|(ray, search)| self.outcome(ray, &search.finding, [0.0; 3]))
             .collect()
     }
 
     /// Whether any opaque surface lies on each ray; parts whose shadow is tinted or none are passed over.
     pub fn occluded(&self, rays: &[Ray]) -> Vec<Occlusion> {
         if self.settings.method == Method::Auto {
-            let nothing = Occlusion {
-                verdict: Verdict::Miss,
-                steps: 0,
-                evaluations: 0,
-            };
-            let mut occlusions = vec![nothing; rays.len()];
+            let mut occlusions = vec![Finding::NOTHING.occlusion(); rays.len()];
             let question = Question {
                 is_seen: &|part: &Part| part.shadow == Shadow::Opaque,
                 any: true,
             };
             self.sweep(rays, &question, &mut |bundle, numbers| {
                 for (i, number) in numbers.iter().enumerate() {
-                    occlusions[*number as usize] = Occlusion {
-                        verdict: bundle.any_verdict(i),
-                        steps: bundle.steps[i],
-                        evaluations: bundle.evaluations[i],
-                    };
+                    occlusions[*number as usize] = bundle.findings[i].occlusion();
                 }
             });
             return occlusions;
         }
         let searches = self.search(rays, &|part: &Part| part.shadow == Shadow::Opaque, true);
-        let verdict = |search: &Search| match (search.best, search.unknown) {
-            (Some(_), _) => Verdict::Hit,
-            (None, Some(_)) => Verdict::Unknown,
-            (None, None) => Verdict::Miss,
-        };
         searches
             .iter()
-            .map(|s| Occlusion {
-                verdict: verdict(s),
-                steps: s.steps,
-                evaluations: s.evaluations,
-            })
+            .map(|search| search.finding.occlusion())
             .collect()
     }
 
@@ -312,15 +266,20 @@ impl World {
             for (part, jobs) in jobs {
                 for walked in self.walk(part, rays, &jobs) {
                     let search = &mut searches[walked.ray as usize];
-                    search.steps += walked.ending.steps;
-                    search.evaluations += walked.evaluations;
-                    match walked.ending.verdict {
-                        Verdict::Hit => search.offer(walked.ending, part),
-                        Verdict::Miss => {}
-                        Verdict::Unknown => {
-                            let free = search.unknown.unwrap_or(f64::INFINITY).min(walked.ending.t);
-                            search.unknown = Some(free);
+                    let Ending {
+                        verdict,
+                        t,
+                        error,
+                        steps,
+                    } = walked.ending;
+                    search.finding.steps += steps;
+                    search.finding.evaluations += walked.evaluations;
+                    match verdict {
+                        Verdict::Hit => {
+                            search.finding.offer(Crossing { t, error }, part);
                         }
+                        Verdict::Miss => {}
+                        Verdict::Unknown => search.finding.doubt(t),
                     }
                 }
             }
@@ -337,20 +296,17 @@ impl World {
         candidates.retain(|(_, number)| is_seen(&self.parts[*number as usize]));
         candidates.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1)));
         Search {
-            best: None,
+            finding: Finding::NOTHING,
             candidates,
-            unknown: None,
-            steps: 0,
-            evaluations: 0,
         }
     }
 
     /// The next part that a ray has to be marched through, and where.
     fn next_walk(&self, ray: &Ray, search: &mut Search, any: bool) -> Option<(u32, Segment)> {
-        if any && search.best.is_some() {
+        if any && search.finding.best.is_some() {
             return None;
         }
-        let limit = search.limit(ray);
+        let limit = search.finding.limit(ray.t_max);
         while let Some((_, number)) = search.candidates.pop() {
             let PartKind::Marched(part) = &self.parts[number as usize].kind else {
                 continue;
@@ -363,30 +319,28 @@ impl World {
         None
     }
 
-    fn segment(&self, ray: &Ray, part: &Marched, start: f64, end: f64) -> Segment {
-        let origin = ray.origin.abs().max_element();
-        let is_endless = !part.region.is_finite();
-        let reach = if is_endless {
+    /// How far a part reaches from the origin, as far as that is known.
+    pub(super) fn reach(&self, part: &Marched) -> f64 {
+        if part.is_endless() {
             self.horizon.max(part.size)
         } else {
             part.size
-        };
-        // Room for the rounding of places along the ray.
-        let slack = |t: f64| 32.0 * f64::EPSILON * (origin + t);
+        }
+    }
+
+    fn segment(&self, ray: &Ray, part: &Marched, start: f64, end: f64) -> Segment {
+        let origin = ray.origin.abs().max_element();
+        let (start, end) = stretch(origin, start, end, ray.t_max);
         Segment {
-            start: (start - slack(start)).max(0.0),
-            end: if end == ray.t_max {
-                end
-            } else {
-                end + slack(end)
-            },
+            start,
+            end,
             lipschitz: part.lipschitz,
             footprint: ray.footprint,
             tolerance: self.settings.tolerance,
             max_steps: self.settings.max_steps,
-            size: origin + reach,
+            size: origin + self.reach(part),
             is_sheet: part.is_sheet,
-            is_endless,
+            is_endless: part.is_endless(),
         }
     }
 
@@ -415,72 +369,27 @@ impl World {
         }
     }
 
-    fn outcome(&self, ray: &Ray, search: &Search) -> Outcome {
-        let (steps, evaluations) = (search.steps, search.evaluations);
-        let nothing = Outcome {
-            verdict: Verdict::Miss,
-            t: f64::INFINITY,
-            error: 0.0,
-            point: DVec3::ZERO,
-            normal: DVec3::ZERO,
-            part: 0,
-            steps,
-            evaluations,
-        };
-        match (search.best, search.unknown) {
-            // A hit counts only if the ray is known to be free before it.
-            (Some((ending, part)), free) if free.is_none_or(|t| t >= ending.t) => {
-                let point = ray.at(ending.t);
-                let normal = self.normal(part, ray, point, ending);
-                Outcome {
-                    verdict: Verdict::Hit,
-                    t: ending.t,
-                    error: ending.error,
-                    point,
-                    normal,
-                    part,
-                    ..nothing
-                }
-            }
-            (_, Some(free)) => Outcome {
-                verdict: Verdict::Unknown,
-                t: free,
-                error: f64::INFINITY,
-                ..nothing
-            },
-            _ => nothing,
-        }
-    }
-
-    /// The outcome of a ray of a bundle, with its normal.
-    fn found(&self, bundle: &Bundle, number: usize, ray: &Ray) -> Outcome {
-        let mut outcome = bundle.outcome(number, ray);
+    /// The outcome of a ray, with its normal: the direction of the `gradient` at its hit, where that is not zero.
+    fn outcome(&self, ray: &Ray, finding: &Finding, gradient: [f64; 3]) -> Outcome {
+        let mut outcome = finding.outcome(ray);
         if outcome.verdict == Verdict::Hit {
-            let gradient = DVec3::from_array([0, 1, 2].map(|axis| bundle.gradient[axis][number]));
-            outcome.normal = gradient.try_normalize().unwrap_or_else(|| {
-                let ending = Ending {
-                    verdict: Verdict::Hit,
-                    t: outcome.t,
-                    error: outcome.error,
-                    steps: 0,
-                };
-                self.normal(outcome.part, ray, outcome.point, ending)
-            });
+            let direction = DVec3::from_array(gradient).try_normalize();
+            outcome.normal = direction.unwrap_or_else(|| self.normal(&outcome, ray));
         }
         outcome
     }
 
-    fn normal(&self, part: u32, ray: &Ray, point: DVec3, ending: Ending) -> DVec3 {
-        match &self.parts[part as usize].kind {
-            PartKind::Ball(ball) => ball.normal(point),
+    /// The normal of the part that `ray` hit.
+    fn normal(&self, hit: &Outcome, ray: &Ray) -> DVec3 {
+        match &self.parts[hit.part as usize].kind {
+            PartKind::Ball(ball) => ball.normal(hit.point),
             PartKind::HalfSpace(plane) => plane.normal,
-            PartKind::Block(block) => block.normal(point),
+            PartKind::Block(block) => block.normal(hit.point),
             PartKind::Facet(facet) => facet.normal,
             PartKind::Marched(marched) => {
-                let back = ending
-                    .error
-                    .max(self.settings.tolerance * ray.footprint.at(ending.t));
-                normal(marched.gradient(), point, ray.direction, back)
+                let pixel = self.settings.tolerance * ray.footprint.at(hit.t);
+                let back = hit.error.max(pixel);
+                normal(marched.gradient(), hit.point, ray.direction, back)
             }
         }
     }

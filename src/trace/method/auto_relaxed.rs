@@ -6,8 +6,9 @@
 //! is taken back. Does not: a hit is only near a surface, within epsilon, and a ray that passes closer than that is called
 //! a hit too.
 
-use super::course::{Course, Look};
+use super::course::Course;
 use super::{Ending, Segment, Walk};
+use std::ops::ControlFlow;
 
 /// A walk by automatically relaxed steps.
 pub struct AutoRelaxed {
@@ -75,13 +76,9 @@ impl Walk for AutoRelaxed {
     }
 
     fn observe(&mut self, value: f64, _: f64) -> Option<Ending> {
-        match self.course.look(self.t, value) {
-            Look::Leaving(next) => {
-                self.t = next;
-                None
-            }
-            Look::Radius(radius) => self.advance(radius),
-            Look::Over(ending) => Some(ending),
+        match self.course.look(&mut self.t, value) {
+            ControlFlow::Continue(radius) => self.advance(radius),
+            ControlFlow::Break(ending) => ending,
         }
     }
 }

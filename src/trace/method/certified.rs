@@ -72,11 +72,6 @@ impl Certified {
         })
     }
 
-    /// The smallest difference of distances that rounding leaves at `t`.
-    fn finest(&self, t: f64) -> f64 {
-        4.0 * f64::EPSILON * self.segment.size.max(t)
-    }
-
     fn march(&mut self, mut now: Sample, last: Option<Sample>) -> Option<Ending> {
         let segment = self.segment;
         self.steps += 1;
@@ -112,9 +107,9 @@ impl Certified {
     /// Goes on from `now`, up to which the ray is free.
     fn advance(&mut self, now: Sample, last: Option<Sample>) -> Option<Ending> {
         let segment = self.segment;
-        let epsilon = segment.epsilon(now.t).max(self.finest(now.t));
+        let epsilon = segment.epsilon(now.t).max(self.segment.finest(now.t));
         let free = now.value.abs() / segment.lipschitz;
-        let rounding = (segment.noise(now.t) / segment.lipschitz).max(self.finest(now.t));
+        let rounding = (segment.noise(now.t) / segment.lipschitz).max(self.segment.finest(now.t));
         if segment.is_sheet && free <= rounding && self.has_departed {
             return self.end(Verdict::Hit, now.t, rounding);
         }
@@ -158,7 +153,7 @@ impl Certified {
         let step_end = doubt.pending[0];
         while let Some(right) = doubt.pending.last().copied() {
             let width = right.t - doubt.left.t;
-            if self.is_free(doubt.left, right) || width <= self.finest(right.t) {
+            if self.is_free(doubt.left, right) || width <= self.segment.finest(right.t) {
                 doubt.left = right;
                 doubt.pending.pop();
                 continue;
@@ -191,7 +186,7 @@ impl Certified {
             return None;
         };
         let width = high.t - low.t;
-        let finest = self.finest(high.t);
+        let finest = self.segment.finest(high.t);
         if high.value == 0.0 || width <= finest || self.narrowings >= Self::MAX_NARROWINGS {
             let t = if high.value == 0.0 {
                 high.t

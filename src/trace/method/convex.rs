@@ -36,14 +36,11 @@ impl Convex {
         })
     }
 
-    /// The smallest difference of distances that rounding leaves.
-    fn finest(&self) -> f64 {
-        4.0 * f64::EPSILON * self.segment.size.max(self.t)
-    }
-
     fn hit(&self, value: f64, slope: f64) -> Option<Ending> {
         let error = (self.segment.noise(self.t) / slope.abs()).max((value / slope).abs());
-        let error = error.min(self.segment.epsilon(self.t)).max(self.finest());
+        let error = error
+            .min(self.segment.epsilon(self.t))
+            .max(self.segment.finest(self.t));
         self.end(Verdict::Hit, self.t, error)
     }
 
@@ -71,7 +68,7 @@ impl Convex {
             return self.end(Verdict::Miss, self.segment.end, 0.0);
         }
         let step = -value / slope;
-        if value <= 0.0 || step <= self.finest() {
+        if value <= 0.0 || step <= self.segment.finest(self.t) {
             return self.hit(value, slope);
         }
         if self.t + step > self.segment.end {
@@ -87,9 +84,9 @@ impl Convex {
             return self.end(Verdict::Miss, self.segment.end, 0.0);
         }
         let step = value / slope;
-        if value <= 0.0 || step <= self.finest() {
+        if value <= 0.0 || step <= self.segment.finest(self.t) {
             // What the ray starts on is no hit.
-            let is_start = self.t <= self.segment.start + 4.0 * self.finest();
+            let is_start = self.t <= self.segment.start + 4.0 * self.segment.finest(self.t);
             return if is_start {
                 self.end(Verdict::Miss, self.segment.end, 0.0)
             } else {

@@ -2,6 +2,7 @@
 
 use super::{Ending, Segment};
 use crate::trace::Verdict;
+use std::ops::ControlFlow;
 
 /// The course of a walk.
 pub(super) struct Course {
@@ -11,16 +12,6 @@ pub(super) struct Course {
     sign: Option<f64>,
     /// Beyond this, a ray through a shape without end is given up.
     far: f64,
-}
-
-/// What the value of the field says at a place.
-pub(super) enum Look {
-    /// The ray has not left the surface that it started on: it is asked again here.
-    Leaving(f64),
-    /// No surface is closer than this; negative behind a surface.
-    Radius(f64),
-    /// The walk is over.
-    Over(Ending),
 }
 
 impl Course {
@@ -60,31 +51,31 @@ impl Course {
         Some(self.end(Verdict::Miss, self.segment.end, 0.0))
     }
 
-    /// Takes the value of the field at `t`, and counts it as a step.
-    pub fn look(&mut self, t: f64, value: f64) -> Look {
+    /// Takes the value of the field at `t`, and counts it as a step: no surface is closer than the radius that it gives, which
+    /// is negative behind a surface. Breaks off with the walk's answer where it is over, or where the ray has not left the
+    /// surface that it started on: then `t` moves on.
+    pub fn look(&mut self, t: &mut f64, value: f64) -> ControlFlow<Option<Ending>, f64> {
         self.steps += 1;
         if self.steps == 1 {
             self.far = self.segment.far(value);
         }
         if value.is_nan() {
-            return Look::Over(self.end(Verdict::Unknown, t, f64::INFINITY));
+            return ControlFlow::Break(Some(self.end(Verdict::Unknown, *t, f64::INFINITY)));
         }
         let radius = value / self.segment.lipschitz;
         let sign = match self.sign {
             Some(sign) => sign,
-            None if radius.abs() < self.epsilon(t) && self.segment.start == 0.0 => {
-                let next = t + self.epsilon(t);
-                return match self.given_up(t, radius) {
-                    Some(ending) => Look::Over(ending),
-                    None => Look::Leaving(next),
-                };
+            None if radius.abs() < self.epsilon(*t) && self.segment.start == 0.0 => {
+                let ending = self.given_up(*t, radius);
+                *t += self.epsilon(*t);
+                return ControlFlow::Break(ending);
             }
             // The region holds the solid, so a ray that comes into it is outside, whatever rounding says.
             None if self.segment.start > 0.0 => 1.0,
             None => radius.signum(),
         };
         self.sign = Some(sign);
-        Look::Radius(sign * radius)
+        ControlFlow::Continue(sign * radius)
     }
 
     /// The end of a walk that is beyond all that is known of the shape, or whose steps have run out.

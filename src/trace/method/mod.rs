@@ -71,6 +71,11 @@ impl Segment {
         64.0 * f64::EPSILON * (self.size + t) * self.lipschitz
     }
 
+    /// The smallest difference of distances that rounding leaves at `t`.
+    pub fn finest(&self, t: f64) -> f64 {
+        finest(self.size, t)
+    }
+
     /// How far a ray is followed through a shape without end, given the field where it starts: 2^30 times the size of
     /// what is known of it. Infinite for a shape with an end.
     pub fn far(&self, value: f64) -> f64 {
@@ -93,6 +98,12 @@ impl Segment {
             Verdict::Unknown
         }
     }
+}
+
+/// The smallest difference of distances that rounding leaves at `t`, where coordinates are as large as `size`. For lanes too.
+#[inline(always)]
+pub fn finest(size: f64, t: f64) -> f64 {
+    4.0 * f64::EPSILON * if size > t { size } else { t }
 }
 
 /// How a walk ended.

@@ -6,8 +6,9 @@
 //! surface, within epsilon, and a ray that passes closer than that is called a hit too. A lambda that is too small does
 //! more harm than to Hart's steps: balls that overlap by mistake hide what lies between.
 
-use super::course::{Course, Look};
+use super::course::Course;
 use super::{Ending, Segment, Walk};
+use std::ops::ControlFlow;
 
 /// A walk by over-relaxed steps.
 pub struct Relaxed {
@@ -63,13 +64,9 @@ impl Walk for Relaxed {
     }
 
     fn observe(&mut self, value: f64, _: f64) -> Option<Ending> {
-        match self.course.look(self.t, value) {
-            Look::Leaving(next) => {
-                self.t = next;
-                None
-            }
-            Look::Radius(radius) => self.advance(radius),
-            Look::Over(ending) => Some(ending),
+        match self.course.look(&mut self.t, value) {
+            ControlFlow::Continue(radius) => self.advance(radius),
+            ControlFlow::Break(ending) => ending,
         }
     }
 }

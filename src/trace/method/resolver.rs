@@ -64,16 +64,11 @@ impl Resolver {
         self.end(Verdict::Unknown, free, f64::INFINITY)
     }
 
-    /// The smallest difference of distances that rounding leaves at `t`.
-    fn finest(&self, t: f64) -> f64 {
-        4.0 * f64::EPSILON * self.segment.size.max(t)
-    }
-
     /// The length from which on a piece at `t` is not cut.
     fn shortest(&self, t: f64) -> f64 {
         let coarser = Self::COARSER.iter().find(|(after, _)| self.steps > *after);
         let share = coarser.map_or(0.0, |(_, share)| *share);
-        self.finest(t).max(share * self.segment.epsilon(t))
+        self.segment.finest(t).max(share * self.segment.epsilon(t))
     }
 
     fn piece(&self) -> (f64, f64) {
@@ -118,7 +113,7 @@ impl Resolver {
             return None;
         }
         if self.segment.is_sheet && self.known.is_some() {
-            return self.end(Verdict::Hit, to, (to - from).max(self.finest(to)));
+            return self.end(Verdict::Hit, to, (to - from).max(self.segment.finest(to)));
         }
         self.next()
     }
@@ -187,7 +182,7 @@ impl Resolver {
     /// Narrows the nearest piece, which holds a root, until it is as narrow as rounding allows.
     fn enclose(&mut self, negative_before: bool) -> Option<Ending> {
         let (from, to) = self.piece();
-        let finest = self.finest(to);
+        let finest = self.segment.finest(to);
         if to - from <= finest {
             return self.end(Verdict::Hit, from + 0.5 * (to - from), finest);
         }
@@ -198,7 +193,7 @@ impl Resolver {
     fn halve(&mut self, negative_before: bool, value: f64) -> Option<Ending> {
         let ((from, to), middle) = (self.piece(), self.middle());
         if value == 0.0 {
-            return self.end(Verdict::Hit, middle, self.finest(middle));
+            return self.end(Verdict::Hit, middle, self.segment.finest(middle));
         }
         self.pieces.pop();
         self.pieces.push(match (value < 0.0) == negative_before {

@@ -8,9 +8,10 @@
 //! and undecided branches the global constant serves. Their smallest step of 1e-3, which thin sheets fall through, is
 //! left out. Does not: a hit is only near a surface, where |f| / K < epsilon.
 
-use super::course::{Course, Look};
+use super::course::Course;
 use super::{Ending, Segment, Walk};
 use crate::num::Interval;
+use std::ops::ControlFlow;
 
 /// A walk by local constants.
 pub struct SegmentTracing {
@@ -72,12 +73,13 @@ impl Walk for SegmentTracing {
     }
 
     fn observe(&mut self, value: f64, _: f64) -> Option<Ending> {
-        match self.course.look(self.t, value) {
-            Look::Leaving(next) => self.t = next,
-            Look::Radius(radius) => self.radius = Some(radius),
-            Look::Over(ending) => return Some(ending),
+        match self.course.look(&mut self.t, value) {
+            ControlFlow::Continue(radius) => {
+                self.radius = Some(radius);
+                None
+            }
+            ControlFlow::Break(ending) => ending,
         }
-        None
     }
 
     fn survey(&mut self, _: Interval, slope: Interval) -> Option<Ending> {

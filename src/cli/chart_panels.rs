@@ -187,20 +187,26 @@ pub fn chart(measured: &[Measured], metrics: &[Metric], works: &[Work]) -> Chart
     }
 }
 
-fn panel(scene: &Measured, metric: Metric, work: Work) -> Panel {
-    let of_method = |method: Method| Series {
+/// The points of a method, in its style.
+pub fn series_of(method: Method, points: Vec<Point>) -> Series {
+    Series {
         name: method.name().into(),
         style: Method::ALL
             .iter()
             .position(|(_, m)| *m == method)
             .unwrap_or(0),
         line: Line::Solid,
-        points: scene
-            .judged
-            .iter()
+        points,
+    }
+}
+
+fn panel(scene: &Measured, metric: Metric, work: Work) -> Panel {
+    let of_method = |method: Method| {
+        let judged = scene.judged.iter();
+        let points = judged
             .filter(|j| j.setting.method == method)
-            .filter_map(|j| point(scene, metric, work, j))
-            .collect(),
+            .filter_map(|j| point(scene, metric, work, j));
+        series_of(method, points.collect())
     };
     let mut series: Vec<Series> = scene.methods().into_iter().map(of_method).collect();
     series.push(front(scene, metric, work));

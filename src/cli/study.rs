@@ -4,7 +4,7 @@ use super::failure::Failure;
 use super::script::described;
 use super::table::{self, Cell};
 use super::{study_constants, study_counts, study_errors};
-use crate::output::chart::{Axis, Chart, Line, Panel, Point, Scale, Series};
+use crate::output::chart::{Axis, Chart, Panel, Point, Scale, Series};
 use crate::output::{self, short};
 use crate::scene::{Fault, Method, Scene};
 use clap::ValueEnum;
@@ -172,18 +172,5 @@ pub fn single(title: &str, subtitle: &str, axes: [(&str, Scale); 2], series: Vec
             series,
         }],
         notes: Vec::new(),
-    }
-}
-
-/// The points of a method, in its style.
-pub fn of_method(method: Method, points: Vec<Point>) -> Series {
-    Series {
-        name: method.name().into(),
-        style: Method::ALL
-            .iter()
-            .position(|(_, m)| *m == method)
-            .unwrap_or(0),
-        line: Line::Solid,
-        points,
     }
 }

@@ -1,6 +1,7 @@
 //! The study of wrong Lipschitz constants: what methods lose when steps are too long, and what they pay when they are too short.
 
-use super::study::{Findings, Plan, of_method};
+use super::chart_panels::series_of;
+use super::study::{Findings, Plan};
 use crate::output::chart::{Axis, Chart, Panel, Point, Scale};
 use crate::render::{Errors, Hits, Setting, Truth};
 use crate::scene::{Fault, Method, Scene};
@@ -46,7 +47,7 @@ pub fn constants(plan: &Plan) -> Result<Findings, Fault> {
             series: results
                 .iter()
                 .map(|(method, results)| {
-                    of_method(
+                    series_of(
                         *method,
                         results
                             .iter()

@@ -1,6 +1,7 @@
 //! Studies of work: steps against the grazing angle, time against the number of primitives.
 
-use super::study::{Findings, Plan, of_method, single};
+use super::chart_panels::series_of;
+use super::study::{Findings, Plan, single};
 use crate::catalogue::{
     AnyBlend, AnyModifier, AnyPrimitive, Combination, Cuboid, Operation, Plane, Sphere, Torus,
     Translate,
@@ -47,7 +48,7 @@ pub fn grazing(plan: &Plan) -> Result<Findings, Fault> {
         };
         let world = World::of(std::slice::from_ref(&plane), &settings)?;
         let points = ANGLES.map(|a| Point::new(a, f64::from(steps(&world, a))));
-        series.push(of_method(*method, points.to_vec()));
+        series.push(series_of(*method, points.to_vec()));
     }
     let subtitle = "From height 1 to within 0.0001 of a plane. Where the ray grazes, steps that know only the distance crawl.";
     let axes = [
@@ -122,7 +123,7 @@ pub fn primitives(plan: &Plan) -> Result<Findings, Fault> {
         .iter()
         .zip(times)
         .map(|(method, times)| {
-            of_method(
+            series_of(
                 *method,
                 NUMBERS.iter().zip(times).filter_map(point).collect(),
             )

@@ -1,6 +1,7 @@
 //! Studies of errors: by distance from the origin, by the way gradients are found, by samples a pixel.
 
-use super::study::{Findings, Plan, of_method, single};
+use super::chart_panels::series_of;
+use super::study::{Findings, Plan, single};
 use crate::catalogue::{
     AnyBlend, AnyModifier, AnyPrimitive, Combination, Cuboid, Operation, Smooth, Sphere, Torus,
     Translate,
@@ -83,7 +84,7 @@ pub fn distance(plan: &Plan) -> Result<Findings, Fault> {
             point.look.is_crossed = errors.unknown > 0;
             points.push(point);
         }
-        series.push(of_method(*method, points));
+        series.push(series_of(*method, points));
     }
     let subtitle = "A blend and a ring, moved away together with the camera; grey: surfaces missed, crossed: some rays unknown.";
     let axes = [

@@ -288,15 +288,7 @@ mod tests {
     use super::*;
     use crate::catalogue::{AnyBlend, AnyModifier, AnyPrimitive, Smooth, Sphere, Translate};
     use crate::num::Lanes;
-
-    /// Numbers in [0, 1) from a counter. Source: the finalizer of MurmurHash3.
-    fn random(i: u64) -> f64 {
-        let mut z = i
-            .wrapping_add(0x9e37_79b9_7f4a_7c15)
-            .wrapping_mul(0xff51_afd7_ed55_8ccd);
-        z = (z ^ (z >> 33)).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
-        ((z ^ (z >> 33)) >> 11) as f64 / (1u64 << 53) as f64
-    }
+    use crate::num::samples::random;
 
     fn place(seed: u64, size: f64) -> [f64; 3] {
         [0, 1, 2].map(|k| size * (2.0 * random(seed * 3 + k) - 1.0))

@@ -12,7 +12,7 @@ mod lattice;
 mod lattice_range;
 mod number;
 #[cfg(test)]
-mod samples;
+pub(crate) mod samples;
 mod scalar;
 mod steep;
 mod vector;

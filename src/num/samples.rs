@@ -2,6 +2,15 @@
 
 use super::{Lattice, Number};
 
+/// A number in [0, 1) that is fixed by `i`. Source: the finalizer of MurmurHash3.
+pub fn random(i: u64) -> f64 {
+    let mut z = i
+        .wrapping_add(0x9e37_79b9_7f4a_7c15)
+        .wrapping_mul(0xff51_afd7_ed55_8ccd);
+    z = (z ^ (z >> 33)).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
+    ((z ^ (z >> 33)) >> 11) as f64 / (1u64 << 53) as f64
+}
+
 /// A sequence of random numbers that is fixed by its seed: a counter, hashed.
 pub struct Samples {
     state: u64,

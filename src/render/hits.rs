@@ -1,13 +1,12 @@
 //! What the camera's rays hit, ray by ray, in full precision: for judging and for counting.
 
-use super::job::STACK_BYTES;
+use super::job::on_threads;
 use super::statistics::Tally;
 use super::tile::{Tile, camera_ray};
 use super::{RenderOptions, Steps, View};
 use crate::scene::Scene;
 use crate::shade::{Census, Surfaces, Whitted};
 use crate::trace::{Outcome, Ray};
-use rayon::prelude::*;
 
 /// What the camera's rays hit.
 #[derive(Clone, Debug, Default)]
@@ -39,14 +38,7 @@ impl Hits {
             }
             hits
         };
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .stack_size(STACK_BYTES)
-            .build();
-        let parts: Vec<Self> = match pool {
-            Ok(pool) => pool.install(|| tiles.par_iter().map(trace).collect()),
-            Err(_) => tiles.iter().map(trace).collect(),
-        };
+        let (parts, _) = on_threads(threads, &tiles, trace);
         parts.into_iter().fold(Self::default(), Self::joined)
     }
 

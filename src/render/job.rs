@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// The stack of a thread: deep scenes recurse in their closures.
-pub(super) const STACK_BYTES: usize = 16 << 20;
+const STACK_BYTES: usize = 16 << 20;
 
 /// How far a rendering is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,6 +67,26 @@ pub struct Rendered {
     pub cancelled: bool,
 }
 
+/// What `work` gives for each of `items`, on so many threads, or 0 for one on each processor; and how many worked.
+pub(super) fn on_threads<T: Sync, R: Send>(
+    threads: usize,
+    items: &[T],
+    work: impl Fn(&T) -> R + Sync,
+) -> (Vec<R>, usize) {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .stack_size(STACK_BYTES)
+        .build();
+    match pool {
+        Ok(pool) => {
+            let results = pool.install(|| items.par_iter().map(&work).collect());
+            (results, pool.current_num_threads())
+        }
+        // Where the system grants no threads, this one does the work.
+        Err(_) => (items.iter().map(work).collect(), 1),
+    }
+}
+
 /// The picture of `scene`, whose shapes are compiled into `world`. The film and all counts are the same to the bit for any
 /// number of threads and size of tiles.
 pub fn render<S: Surfaces + ?Sized>(scene: &Scene, world: &S, options: &RenderOptions) -> Rendered {
@@ -102,21 +122,7 @@ pub fn render<S: Surfaces + ?Sized>(scene: &Scene, world: &S, options: &RenderOp
             });
         }
     };
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(options.threads)
-        .stack_size(STACK_BYTES)
-        .build();
-    // Where the system grants no threads, this one does the work.
-    let threads = match pool {
-        Ok(pool) => {
-            pool.install(|| tiles.par_iter().for_each(work));
-            pool.current_num_threads()
-        }
-        Err(_) => {
-            tiles.iter().for_each(work);
-            1
-        }
-    };
+    let (_, threads) = on_threads(options.threads, &tiles, work);
     let Recording { film, tally, done } = result
         .into_inner()
         .unwrap_or_else(|poisoned| poisoned.into_inner());

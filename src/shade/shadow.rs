@@ -140,7 +140,7 @@ fn step<S: Surfaces + ?Sized>(
         if !is_hit {
             continue;
         }
-        let Some(surface) = Surface::mixed(&surfaces.paints(hit.part, hit.point)) else {
+        let Some(surface) = Surface::of(surfaces, hit.part, hit.point) else {
             continue;
         };
         passage.share *= surface.passes;

@@ -183,12 +183,9 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         if outcome.verdict != Verdict::Hit {
             return None;
         }
-        let Some(number) = self.surfaces.sole(outcome.part) else {
-            return Surface::mixed(&self.surfaces.paints(outcome.part, outcome.point));
-        };
-        let material = &self.surfaces.materials()[number];
-        let patterned = || Surface::new(material, outcome.point.to_array());
-        Some(self.plain[number].unwrap_or_else(patterned))
+        let number = self.surfaces.sole(outcome.part);
+        let plain = number.and_then(|number| self.plain[number]);
+        plain.or_else(|| Surface::of(self.surfaces, outcome.part, outcome.point))
     }
 
     /// Weakens a path over `distance`, and gives the light that fog adds to it on the way.

@@ -270,6 +270,7 @@ impl ClosedForm for Facet {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::samples::random;
     use crate::trace::Footprint;
 
     fn ray(origin: [f64; 3], direction: [f64; 3]) -> Ray {
@@ -282,15 +283,6 @@ mod tests {
                 spread: 1e-3,
             },
         }
-    }
-
-    /// Numbers in [0, 1) from a counter. Source: the finalizer of MurmurHash3.
-    fn random(i: u64) -> f64 {
-        let mut z = i
-            .wrapping_add(0x9e37_79b9_7f4a_7c15)
-            .wrapping_mul(0xff51_afd7_ed55_8ccd);
-        z = (z ^ (z >> 33)).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
-        ((z ^ (z >> 33)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
     #[test]

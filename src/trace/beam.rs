@@ -158,17 +158,9 @@ impl Pace {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::samples::random;
     use crate::trace::Footprint;
     use crate::trace::hierarchy::clip;
-
-    /// Numbers in [0, 1) from a counter. Source: the finalizer of MurmurHash3.
-    fn random(i: u64) -> f64 {
-        let mut z = i
-            .wrapping_add(0x9e37_79b9_7f4a_7c15)
-            .wrapping_mul(0xff51_afd7_ed55_8ccd);
-        z = (z ^ (z >> 33)).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
-        ((z ^ (z >> 33)) >> 11) as f64 / (1u64 << 53) as f64
-    }
 
     fn rays(seed: u64) -> Vec<Ray> {
         let place = |k: u64| {

@@ -201,16 +201,6 @@ impl World {
     /// The materials at a point of the surface of `part`, one or more.
     pub fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>> {
         let part = &self.parts[part as usize];
-        if let [only] = &part.materials[..] {
-            let material = only.as_ref().unwrap_or(&self.default);
-            if !material.has_patterns() {
-                return vec![Paint {
-                    material,
-                    weight: 1.0,
-                    point: point.to_array(),
-                }];
-            }
-        }
         shares(&part.node, point.to_array())
             .into_iter()
             .map(|s| Paint {

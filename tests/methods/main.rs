@@ -1,6 +1,8 @@
 //! Methods side by side: the reference against closed forms, the others against the reference, steps against theory.
 
 mod promises;
+#[path = "../rays/mod.rs"]
+mod rays;
 mod reference;
 mod steps;
 
@@ -8,16 +10,8 @@ use fieldstone::lang::load_text;
 use fieldstone::scene::{Method, Node, Settings};
 use fieldstone::trace::{Footprint, Outcome, Ray, SceneTracer, Visibility, World};
 use glam::DVec3;
+use rays::{aimed, ray};
 use std::sync::Arc;
-
-/// Numbers in [0, 1) from a counter. Source: the finalizer of MurmurHash3.
-fn random(i: u64) -> f64 {
-    let mut z = i
-        .wrapping_add(0x9e37_79b9_7f4a_7c15)
-        .wrapping_mul(0xff51_afd7_ed55_8ccd);
-    z = (z ^ (z >> 33)).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
-    ((z ^ (z >> 33)) >> 11) as f64 / (1u64 << 53) as f64
-}
 
 /// A ray whose pixel is as wide as `at_origin + spread t`.
 fn ray_of_pixel(origin: [f64; 3], direction: [f64; 3], at_origin: f64, spread: f64) -> Ray {
@@ -27,11 +21,6 @@ fn ray_of_pixel(origin: [f64; 3], direction: [f64; 3], at_origin: f64, spread: f
         t_max: f64::INFINITY,
         footprint: Footprint { at_origin, spread },
     }
-}
-
-/// A ray of a camera with about a thousand pixels.
-fn ray(origin: [f64; 3], direction: [f64; 3]) -> Ray {
-    ray_of_pixel(origin, direction, 0.0, 1e-3)
 }
 
 /// What a script shows.
@@ -53,16 +42,4 @@ fn settings(method: Method) -> Settings {
 fn traced(script: &str, settings: Settings, rays: &[Ray]) -> Vec<Outcome> {
     let world = World::of(&shown(script), &settings).expect("a world");
     world.nearest(rays, Visibility::All)
-}
-
-/// Rays from a sphere of radius 3 towards points of a box of half-width 0.7.
-fn aimed(n: u64, seed: u64) -> Vec<Ray> {
-    (0..n)
-        .map(|i| {
-            let x = |k: u64| 2.0 * random(seed + i * 8 + k) - 1.0;
-            let eye = DVec3::new(x(0), x(1), x(2)).normalize_or(DVec3::X) * 3.0;
-            let target = DVec3::new(x(3), x(4), x(5)) * 0.7;
-            ray(eye.to_array(), (target - eye).to_array())
-        })
-        .collect()
 }

@@ -7,6 +7,7 @@
 //! short as epsilon that still cannot be decided is called a hit, also where the surface is only nearby, or where the
 //! formula jumps between branches that meet (at the walls of a repetition).
 
+use super::pieces::Pieces;
 use super::{Ending, Segment, Walk};
 use crate::num::Interval;
 use crate::trace::Verdict;
@@ -27,8 +28,7 @@ enum Phase {
 /// A walk by ranges.
 pub struct IntervalAnalysis {
     segment: Segment,
-    /// The pieces that are still open, the nearest last; the last is the one that is looked at.
-    pieces: Vec<(f64, f64)>,
+    pieces: Pieces,
     phase: Phase,
     steps: u32,
     /// Whether the ray has left the surface that it may have started on.
@@ -36,9 +36,6 @@ pub struct IntervalAnalysis {
 }
 
 impl IntervalAnalysis {
-    /// How many sizes of what is known a ray without an end is followed before it is given up.
-    const FAR: f64 = (1u64 << 30) as f64;
-
     fn end(&self, verdict: Verdict, t: f64, error: f64) -> Option<Ending> {
         Some(Ending {
             verdict,
@@ -54,50 +51,27 @@ impl IntervalAnalysis {
         self.segment.epsilon(t).max(finest)
     }
 
-    fn piece(&self) -> (f64, f64) {
-        self.pieces.last().copied().unwrap_or_default()
-    }
-
-    /// Where a piece is cut: in the middle, and one without an end where it has doubled.
-    fn middle(&self) -> f64 {
-        let (from, to) = self.piece();
-        if to.is_finite() {
-            return from + 0.5 * (to - from);
-        }
-        2.0 * from.max(self.size())
-    }
-
-    /// What a piece without an end begins with: the size of what is known, or 1 where nothing is.
-    fn size(&self) -> f64 {
-        let size = self.segment.size.max(self.segment.footprint.at_origin);
-        if size > 0.0 { size } else { 1.0 }
-    }
-
     /// Goes on behind the nearest piece, which holds no root.
     fn pass(&mut self) -> Option<Ending> {
-        self.pieces.pop();
         self.phase = Phase::Piece;
-        match self.pieces.is_empty() {
+        match self.pieces.pass() {
             true => self.end(Verdict::Miss, self.segment.end, 0.0),
             false => None,
         }
     }
 
     fn halve(&mut self) -> Option<Ending> {
-        let (from, to) = self.piece();
-        let middle = self.middle();
-        if !to.is_finite() && from > self.size() * Self::FAR {
+        if self.pieces.is_too_far() {
+            let (from, _) = self.pieces.nearest();
             return self.end(Verdict::Unknown, from, f64::INFINITY);
         }
-        self.pieces.pop();
-        self.pieces.push((middle, to));
-        self.pieces.push((from, middle));
+        self.pieces.cut();
         None
     }
 
     fn look(&mut self, value: Interval, slope: Interval) -> Option<Ending> {
         self.steps += 1;
-        let (from, to) = self.piece();
+        let (from, to) = self.pieces.nearest();
         if self.steps > self.segment.max_steps {
             return self.end(Verdict::Unknown, from, f64::INFINITY);
         }
@@ -130,7 +104,7 @@ impl IntervalAnalysis {
     }
 
     fn narrow(&mut self) -> Option<Ending> {
-        let (from, to) = self.piece();
+        let (from, to) = self.pieces.nearest();
         match to - from <= self.epsilon(to) {
             true => self.end(Verdict::Hit, from + 0.5 * (to - from), to - from),
             false => None,
@@ -139,14 +113,11 @@ impl IntervalAnalysis {
 
     /// Keeps the half of the piece that holds its root.
     fn keep(&mut self, is_negative: bool, middle: Interval) -> Option<Ending> {
-        let ((from, to), cut) = (self.piece(), self.middle());
-        self.pieces.pop();
         if !is_sure(middle) {
+            let cut = self.pieces.middle();
             return self.end(Verdict::Hit, cut, self.epsilon(cut));
         }
-        let is_behind = (middle.hi < 0.0) == is_negative;
-        self.pieces
-            .push(if is_behind { (cut, to) } else { (from, cut) });
+        self.pieces.keep((middle.hi < 0.0) == is_negative);
         self.narrow()
     }
 }
@@ -162,7 +133,7 @@ impl Walk for IntervalAnalysis {
     fn begin(segment: Segment) -> Self {
         Self {
             segment,
-            pieces: vec![(segment.start, segment.end)],
+            pieces: Pieces::of(&segment),
             phase: Phase::Piece,
             steps: 0,
             has_departed: segment.start > 0.0,
@@ -170,17 +141,17 @@ impl Walk for IntervalAnalysis {
     }
 
     fn t(&self) -> f64 {
-        let (from, to) = self.piece();
+        let (from, to) = self.pieces.nearest();
         match self.phase {
             Phase::Piece | Phase::NearEnd => from,
             Phase::FarEnd { .. } => to,
-            Phase::Narrowing { .. } => self.middle(),
+            Phase::Narrowing { .. } => self.pieces.middle(),
         }
     }
 
     fn reach(&self) -> Option<f64> {
         Some(match self.phase {
-            Phase::Piece => self.piece().1,
+            Phase::Piece => self.pieces.nearest().1,
             _ => self.t(),
         })
     }
@@ -195,7 +166,7 @@ impl Walk for IntervalAnalysis {
             Phase::NearEnd => {
                 // A root at the near end: what the ray starts on is no hit, and what follows a piece without a root is.
                 if !is_sure(value) && self.has_departed {
-                    let (from, _) = self.piece();
+                    let (from, _) = self.pieces.nearest();
                     return self.end(Verdict::Hit, from, self.epsilon(from));
                 }
                 // Where the sign is not sure, it is that which the slope leads to.

@@ -14,6 +14,7 @@ mod course;
 mod demands;
 mod enhanced;
 mod interval;
+mod pieces;
 mod reference;
 mod relaxed;
 mod resolver;

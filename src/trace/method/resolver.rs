@@ -11,6 +11,7 @@
 //! questions do not suffice (along the rim of a fractal), pieces are not cut any more below a thousandth of epsilon, and
 //! where 8192 do not, below a sixteenth: a pair of roots that close is passed over. What takes more than 16 384 stays unknown.
 
+use super::pieces::Pieces;
 use super::{Ending, Segment, Walk};
 use crate::num::Interval;
 use crate::trace::Verdict;
@@ -31,8 +32,7 @@ enum Phase {
 /// A walk that decides.
 pub struct Resolver {
     segment: Segment,
-    /// The pieces that are still to be looked at, the nearest last.
-    pieces: Vec<(f64, f64)>,
+    pieces: Pieces,
     phase: Phase,
     /// Up to where the sign of the field is known, and whether it is negative; none before the ray has left what it may
     /// have started on.
@@ -46,9 +46,6 @@ impl Resolver {
 
     /// After how many questions pieces are not cut any more below which share of epsilon.
     const COARSER: [(u32, f64); 2] = [(8192, 1.0 / 16.0), (4096, 1.0 / 1024.0)];
-
-    /// How many sizes of what is known a ray without an end is followed.
-    const FAR: f64 = (1u64 << 30) as f64;
 
     fn end(&self, verdict: Verdict, t: f64, error: f64) -> Option<Ending> {
         Some(Ending {
@@ -71,33 +68,13 @@ impl Resolver {
         self.segment.finest(t).max(share * self.segment.epsilon(t))
     }
 
-    fn piece(&self) -> (f64, f64) {
-        self.pieces.last().copied().unwrap_or_default()
-    }
-
-    /// What is known of the scene's size; 1 where nothing is.
-    fn size(&self) -> f64 {
-        let size = self.segment.size.max(self.segment.footprint.at_origin);
-        if size > 0.0 { size } else { 1.0 }
-    }
-
-    /// Where a piece is cut; one without an end where it has doubled.
-    fn middle(&self) -> f64 {
-        let (from, to) = self.piece();
-        if to.is_finite() {
-            from + 0.5 * (to - from)
-        } else {
-            2.0 * from.max(self.size())
-        }
-    }
-
     fn look(&mut self, value: Interval, slope: Interval) -> Option<Ending> {
         if let Some(is_negative) = sign(value) {
             return self.settle(is_negative);
         }
-        let (from, to) = self.piece();
+        let (from, to) = self.pieces.nearest();
         if to.is_infinite() {
-            return match from > Self::FAR * self.size() {
+            return match self.pieces.is_too_far() {
                 true => self.unknown(),
                 false => self.cut(),
             };
@@ -119,20 +96,17 @@ impl Resolver {
     }
 
     fn cut(&mut self) -> Option<Ending> {
-        let ((from, to), middle) = (self.piece(), self.middle());
-        self.pieces.pop();
-        self.pieces.push((middle, to));
-        self.pieces.push((from, middle));
+        self.pieces.cut();
         self.phase = Phase::Piece;
         None
     }
 
     /// The sign on the nearest piece is known: a root lies before it, if it differs from the sign before.
     fn settle(&mut self, is_negative: bool) -> Option<Ending> {
-        let (from, to) = self.piece();
+        let (from, to) = self.pieces.nearest();
         match self.known {
             Some((before, negative_before)) if negative_before != is_negative => {
-                self.pieces.push((before, from));
+                self.pieces.precede((before, from));
                 self.enclose(negative_before)
             }
             _ => {
@@ -144,7 +118,7 @@ impl Resolver {
 
     /// The value in the middle of the nearest piece, from which the field rises or falls at most so fast.
     fn judge(&mut self, value: f64, steepness: f64) -> Option<Ending> {
-        let (from, to) = self.piece();
+        let (from, to) = self.pieces.nearest();
         let reach = 0.5 * (to - from) * steepness * (1.0 + 1e-9);
         match value.abs() > reach + self.segment.noise(to) {
             true => self.settle(value < 0.0),
@@ -154,7 +128,7 @@ impl Resolver {
 
     /// On the nearest piece the field is monotone, and its sign at the near end is known.
     fn compare(&mut self, far_end: f64) -> Option<Ending> {
-        let ((from, to), known) = (self.piece(), self.known);
+        let ((from, to), known) = (self.pieces.nearest(), self.known);
         let far_end = (far_end.abs() > self.segment.noise(to)).then_some(far_end < 0.0);
         let (Some(is_negative), Some((_, negative_before))) = (far_end, known) else {
             return match to - from > self.shortest(to) {
@@ -171,9 +145,8 @@ impl Resolver {
 
     /// Goes on to the next piece.
     fn next(&mut self) -> Option<Ending> {
-        self.pieces.pop();
         self.phase = Phase::Piece;
-        match self.pieces.is_empty() {
+        match self.pieces.pass() {
             true => self.end(Verdict::Miss, self.segment.end, 0.0),
             false => None,
         }
@@ -181,7 +154,7 @@ impl Resolver {
 
     /// Narrows the nearest piece, which holds a root, until it is as narrow as rounding allows.
     fn enclose(&mut self, negative_before: bool) -> Option<Ending> {
-        let (from, to) = self.piece();
+        let (from, to) = self.pieces.nearest();
         let finest = self.segment.finest(to);
         if to - from <= finest {
             return self.end(Verdict::Hit, from + 0.5 * (to - from), finest);
@@ -191,15 +164,11 @@ impl Resolver {
     }
 
     fn halve(&mut self, negative_before: bool, value: f64) -> Option<Ending> {
-        let ((from, to), middle) = (self.piece(), self.middle());
         if value == 0.0 {
+            let middle = self.pieces.middle();
             return self.end(Verdict::Hit, middle, self.segment.finest(middle));
         }
-        self.pieces.pop();
-        self.pieces.push(match (value < 0.0) == negative_before {
-            true => (middle, to),
-            false => (from, middle),
-        });
+        self.pieces.keep((value < 0.0) == negative_before);
         self.enclose(negative_before)
     }
 }
@@ -217,7 +186,7 @@ impl Walk for Resolver {
         let known = (segment.start > 0.0).then_some((segment.start, false));
         Self {
             segment,
-            pieces: vec![(segment.start, segment.end)],
+            pieces: Pieces::of(&segment),
             phase: Phase::Piece,
             known,
             steps: 0,
@@ -226,14 +195,14 @@ impl Walk for Resolver {
 
     fn t(&self) -> f64 {
         match self.phase {
-            Phase::Piece => self.piece().0,
-            Phase::FarEnd => self.piece().1,
-            Phase::Middle { .. } | Phase::Enclosing { .. } => self.middle(),
+            Phase::Piece => self.pieces.nearest().0,
+            Phase::FarEnd => self.pieces.nearest().1,
+            Phase::Middle { .. } | Phase::Enclosing { .. } => self.pieces.middle(),
         }
     }
 
     fn reach(&self) -> Option<f64> {
-        matches!(self.phase, Phase::Piece).then(|| self.piece().1)
+        matches!(self.phase, Phase::Piece).then(|| self.pieces.nearest().1)
     }
 
     fn observe(&mut self, value: f64, _: f64) -> Option<Ending> {

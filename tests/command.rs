@@ -811,3 +811,101 @@ fn smallest_scene_is_there_at_once() {
     assert!(fastest < Duration::from_millis(150), "{fastest:?}");
     assert!(Path::new(&folder.0.join("s.png")).is_file());
 }
+
+/// The numbers in a text, in order.
+fn numbers(text: &str) -> Vec<f64> {
+    let is_part = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | 'e');
+    text.split(|c| !is_part(c))
+        .filter_map(|word| word.trim_end_matches('.').parse().ok())
+        .collect()
+}
+
+/// Within ten units of the origin, where the claim is tested at load, it holds; beyond x = 12 the slope is sqrt(1 + 3^2).
+#[test]
+fn rays_that_refute_a_constant_are_told_with_a_witness() {
+    let folder = Folder::new("strict");
+    let script = "\
+        field ramp(p) lipschitz 1 { return p.y - 3 * max(p.x - 12, 0) }\n\
+        show ramp\n\
+        camera { eye: [0, 1, 0], at: [12, 1, 0] }\n\
+        render { size: [32, 18] }\n";
+    folder.write("ramp.sdf", script);
+    let relaxed = folder.run(&["render", "ramp.sdf", "-q"]);
+    assert_eq!(relaxed.code, Some(0), "{}", relaxed.err);
+    let methods = [
+        "auto",
+        "convex",
+        "certified",
+        "sphere",
+        "relaxed",
+        "auto-relaxed",
+        "enhanced",
+        "segment",
+        "bisect",
+    ];
+    for method in methods {
+        let picture = format!("{method}.png");
+        let arguments = [
+            "render", "ramp.sdf", "-q", "--strict", "--method", method, "-o", &picture,
+        ];
+        let answer = folder.run(&arguments);
+        assert_eq!(answer.code, Some(3), "{method}: {}", answer.err);
+        assert!(folder.names().contains(&picture), "{method}");
+        let told = "rays refute the claimed Lipschitz constant of `ramp`";
+        assert!(answer.err.contains(told), "{method}: {}", answer.err);
+        assert!(
+            answer.err.contains("ramp.sdf:1:7"),
+            "{method}: {}",
+            answer.err
+        );
+        let witness = answer.err.split("the field is ").nth(1).unwrap();
+        let found = numbers(witness.split(';').next().unwrap());
+        let [f, x, y, z, g, u, v, w] = found[..] else {
+            panic!("{method}: {witness}");
+        };
+        let field = |x: f64, y: f64| y - 3.0 * (x - 12.0).max(0.0);
+        assert!(
+            (field(x, y) - f).abs() < 1e-9 && (field(u, v) - g).abs() < 1e-9,
+            "{witness}"
+        );
+        let apart = (u - x).hypot(v - y).hypot(w - z);
+        assert!(
+            (f - g).abs() > apart && (f - g).abs() < 3.163 * apart,
+            "{witness}"
+        );
+    }
+    for method in ["interval", "reference"] {
+        let answer = folder.run(&["render", "ramp.sdf", "-q", "--strict", "--method", method]);
+        assert_eq!((answer.code, &*answer.err), (Some(0), ""), "{method}");
+    }
+}
+
+#[test]
+fn the_node_of_a_refuted_constant_is_the_innermost() {
+    let folder = Folder::new("strict-blend");
+    let script = "\
+        field ramp(p) lipschitz 1 { return p.y - 3 * max(p.x - 12, 0) }\n\
+        let balls = for i in 0..4 { sphere(1).translate([2 * i, 3, -9]) }\n\
+        let land = union(union(balls), ramp.translate([0, -1, 0]), blend: smooth(0.3))\n\
+        show land\n\
+        camera { eye: [0, 1, 0], at: [12, 1, 0] }\n";
+    folder.write("land.sdf", script);
+    for threads in ["1", "2"] {
+        let arguments = [
+            "render",
+            "land.sdf",
+            "-q",
+            "--strict",
+            "--size",
+            "32x18",
+            "--threads",
+            threads,
+        ];
+        let answer = folder.run(&arguments);
+        assert_eq!(answer.code, Some(3), "{}", answer.err);
+        assert!(answer.err.contains("constant of `ramp`"), "{}", answer.err);
+        assert!(answer.err.contains("land.sdf:1:7"), "{}", answer.err);
+        folder.write(threads, &answer.err);
+    }
+    assert_eq!(folder.read("1"), folder.read("2"));
+}

@@ -11,6 +11,8 @@ pub enum Failure {
     Script,
     /// The command was called in a way that makes no sense.
     Usage(String),
+    /// A bound was refuted while `--strict` asks that none is; it has been said already.
+    Refuted,
     /// Anything else that fails; empty where it has been said already.
     Other(String),
     /// Whoever reads the output has enough of it.
@@ -20,12 +22,14 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// The exit code: 1 for anything that fails, 2 for a script or a call that is wrong, 130 for an interruption.
+    /// The exit code: 1 for anything that fails, 2 for a script or a call that is wrong, 3 for a bound that is refuted, 130
+    /// for an interruption.
     pub fn code(&self) -> u8 {
         match self {
             Self::Closed => 0,
             Self::Other(_) => 1,
             Self::Script | Self::Usage(_) => 2,
+            Self::Refuted => 3,
             Self::Interrupted => 130,
         }
     }
@@ -55,7 +59,7 @@ impl fmt::Display for Failure {
         match self {
             Self::Usage(message) | Self::Other(message) => f.write_str(message),
             Self::Interrupted => f.write_str("interrupted"),
-            Self::Script | Self::Closed => Ok(()),
+            Self::Script | Self::Refuted | Self::Closed => Ok(()),
         }
     }
 }

@@ -21,6 +21,7 @@ mod new;
 mod outline;
 mod progress;
 mod reference;
+mod refutations;
 mod render;
 mod script;
 mod stats;
@@ -46,6 +47,7 @@ Exit codes:
   0    all went well
   1    something failed: a file cannot be read or written, a test does not pass
   2    a script is wrong, or the command line is
+  3    with `render --strict`: rays refuted a Lipschitz constant
   130  interrupted by Ctrl-C; no half-written file is left
 
 Examples:

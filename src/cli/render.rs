@@ -4,6 +4,7 @@ use super::console::{say, say_line, say_warning};
 use super::failure::{Failure, reason};
 use super::interrupt;
 use super::progress::Reporter;
+use super::refutations;
 use super::script::{Script, compile};
 use super::stats::{self, Stages, timed};
 use super::tracing::Tracing;
@@ -23,11 +24,16 @@ text. Without -o it is named after the script and lies in the current folder: `f
 writes arch.png. A single channel goes to that file; of several, beauty does, and each other one lies beside it, as \
 in arch.depth.png. Files are written whole or not at all.
 
+Where two samples on a ray differ by more than a Lipschitz constant allows, that constant is wrong and the picture may \
+be: a warning then names the node, its place in the script, and the two points. With --strict the exit code is 3. Every \
+method but `interval` and `reference` looks, which need no constants; what no ray samples is not noticed.
+
 Examples:
   fieldstone render scene.sdf
   fieldstone render scene.sdf -o big.png --size 1920x1080 --samples 16
   fieldstone render scene.sdf -D teeth=30 -D gap=0.2
-  fieldstone render scene.sdf --channel beauty,steps,verdict --stats stats.json";
+  fieldstone render scene.sdf --channel beauty,steps,verdict --stats stats.json
+  fieldstone render scene.sdf --strict";
 
 /// Render a scene to a PNG
 #[derive(Args, Debug)]
@@ -58,6 +64,9 @@ pub struct Arguments {
     /// Write counts and times to this file
     #[arg(long, value_name = "FILE.json")]
     stats: Option<PathBuf>,
+    /// Exit with code 3 if rays refute a Lipschitz constant; the picture is written all the same
+    #[arg(long)]
+    strict: bool,
     /// Say nothing but warnings and errors
     #[arg(short, long)]
     quiet: bool,
@@ -72,7 +81,8 @@ fn channel() -> impl TypedValueParser<Value = Channel> {
 /// Renders the scene and writes its picture.
 ///
 /// # Errors
-/// If the script is wrong, a file can't be written, or the user stops it; then no half-written file is left.
+/// If the script is wrong, a file can't be written, or the user stops it; then no half-written file is left. And if rays
+/// refute a Lipschitz constant while `--strict` asks that none is; then all files are there.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let path = picture_path(arguments)?;
     [Some(&path), arguments.stats.as_ref()]
@@ -101,6 +111,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             .map_err(|error| Failure::writing(&quoted(path), &error))?;
     }
     tell(arguments, &rendered, &stages, &saved);
+    if refutations::warn(&loaded, &world) > 0 && arguments.strict {
+        return Err(Failure::Refuted);
+    }
     Ok(())
 }
 

@@ -282,6 +282,7 @@ mod tests {
             Some(crate::scene::Place {
                 file: "a.sdf".into(),
                 line,
+                mark: Default::default(),
             })
         };
         let shown = [

@@ -64,7 +64,7 @@ impl Machine<'_> {
                     self.diagnostics.push(refuted(name, at, claimed, found));
                 }
                 Claim::Jumps(point) => self.diagnostics.push(jumps(name, at, point)),
-                Claim::Derived(_) if derived > 0.0 && claimed > LOOSE * derived => {
+                Claim::Derived(_) if derived.is_normal() && claimed > LOOSE * derived => {
                     self.diagnostics.push(loose(name, at, claimed, derived));
                 }
                 Claim::Derived(_) if derived.is_finite() && derived > OPEN * claimed => {

@@ -6,9 +6,10 @@ use super::machine::{Global, Machine};
 use super::program::{Content, Program, Reader, content};
 use super::report::{Diagnostic, Level, Report};
 use super::resolve::resolve;
+use super::source::Span;
 use super::statements::Made;
 use super::trial::TestResult;
-use crate::scene::{Node, Scene, Tracer};
+use crate::scene::{Mark, Node, Scene, Tracer};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::io;
@@ -106,6 +107,25 @@ impl Loaded {
     /// The names of the script's `test` blocks, in order.
     pub fn tests(&self) -> Vec<&str> {
         self.test_blocks().map(|test| &*test.name.text).collect()
+    }
+
+    /// A warning about what stands at a place of the script, if it is known, as text with the lines around it.
+    pub fn warning(
+        &self,
+        mark: Option<Mark>,
+        message: String,
+        label: String,
+        help: &str,
+    ) -> Report {
+        let warning = Diagnostic {
+            level: Level::Warning,
+            message,
+            span: mark.map(Span::marked),
+            label,
+            help: Some(help.into()),
+            notes: Vec::new(),
+        };
+        Report::new(vec![warning], self.program.sources.clone())
     }
 
     fn test_blocks(&self) -> impl Iterator<Item = &TestBlock> {

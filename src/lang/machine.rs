@@ -185,12 +185,13 @@ impl<'a> Machine<'a> {
         self.tick((effort - before) / 2 + self.derived.len() as u64 / 16, at)
     }
 
-    /// The file and line of `span`.
+    /// Where `span` is.
     pub fn place(&self, span: Span) -> Place {
         let line = self.program.sources.line(span);
         Place {
             file: self.program.sources.get(span.file).name.clone(),
             line: line as u32,
+            mark: span.mark(),
         }
     }
 

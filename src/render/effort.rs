@@ -185,7 +185,7 @@ fn crossing(ray: &Ray, bounds: &Bounds) -> Option<(f64, f64)> {
 mod tests {
     use super::*;
     use crate::catalogue::{AnyModifier, AnyPrimitive, Cuboid, Sphere, Translate};
-    use crate::scene::{Camera, Method, Place, Scene, Settings};
+    use crate::scene::{Camera, Mark, Method, Place, Scene, Settings};
     use glam::DVec3;
 
     fn placed(primitive: AnyPrimitive, x: f64, line: u32) -> Arc<Node> {
@@ -197,6 +197,7 @@ mod tests {
             Some(Place {
                 file: "a.sdf".into(),
                 line,
+                mark: Mark::default(),
             }),
         )
     }

@@ -1,5 +1,6 @@
 //! Floor 2: the scene: a typed tree of shapes with its certificates, materials, lights, camera.
 
+mod blame;
 mod camera;
 mod derive;
 mod environment;
@@ -17,6 +18,7 @@ mod tracer;
 
 use std::sync::Arc;
 
+pub use blame::Blame;
 pub use camera::{Camera, Projection};
 pub use derive::{Claim, Refutation, Trouble, gradient_bound, range_of_graph, refute, trouble};
 pub use environment::{Fog, Sky};

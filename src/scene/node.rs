@@ -2,7 +2,7 @@
 
 use super::derive::{lipschitz_of_graph, range_of_graph};
 use super::symbol::{asked, gradient, record};
-use super::{Fault, Graph, Material};
+use super::{Fault, Graph, Mark, Material};
 use crate::catalogue::{
     AnyModifier, AnyPrimitive, Bounds, Class, Combination, Modifier, Operation, Primitive,
     Similarity, Traits, with_compiled_blend, with_compiled_modifier, with_compiled_primitive,
@@ -60,6 +60,8 @@ pub struct Place {
     pub file: Arc<str>,
     /// The line, from 1.
     pub line: u32,
+    /// The place itself, in the language's own terms.
+    pub mark: Mark,
 }
 
 /// A shape with its certificates.

@@ -89,6 +89,7 @@ pub(super) fn fan(packet: &mut Packet, lane: usize, value: &Closure<F64x32>, rul
             let noise = 64.0 * f64::EPSILON * (p.size[lane] + t[k]) * slope;
             if (now - last).abs() > slope * gap * (1.0 + 1e-9) + noise {
                 p.state[lane] = state::REFUTED;
+                p.t[lane] = t[k];
                 return;
             }
             if now.is_nan() || now == 0.0 {

@@ -5,6 +5,7 @@
 
 use super::Ray;
 use super::bundle::WIDTH;
+use super::evidence::{Trail, Witness};
 use super::method::{Ending, Segment, Walk};
 use super::part::Marched;
 use crate::num::{Dual, F64x32, Lanes, Vec3};
@@ -38,6 +39,8 @@ struct Seat<W> {
     walk: W,
     ray: u32,
     evaluations: u32,
+    segment: Segment,
+    trail: Trail,
 }
 
 impl<W: Walk> Seat<W> {
@@ -46,11 +49,17 @@ impl<W: Walk> Seat<W> {
             walk: W::begin(job.segment),
             ray: job.ray,
             evaluations: 0,
+            segment: job.segment,
+            trail: Trail::default(),
         }
     }
 
-    fn observe(&mut self, value: f64, slope: f64) -> Option<Walked> {
+    fn observe(&mut self, part: &Marched, rays: &[Ray], value: f64, slope: f64) -> Option<Walked> {
         self.evaluations += 1;
+        if let Some(samples) = self.trail.extend(&self.segment, (self.walk.t(), value)) {
+            let ray = &rays[self.ray as usize];
+            part.evidence.add(Witness::on(ray, samples));
+        }
         let ending = self.walk.observe(value, slope)?;
         Some(Walked {
             ray: self.ray,
@@ -86,7 +95,7 @@ fn step_packet<'a, W: Walk>(
     let mut lane = 0;
     let mut kept = 0;
     while lane < values.len() && kept < seats.len() {
-        match seats[kept].observe(values[lane], slopes[lane]) {
+        match seats[kept].observe(part, rays, values[lane], slopes[lane]) {
             None => kept += 1,
             Some(walked) => {
                 done.push(walked);
@@ -152,7 +161,7 @@ fn finish_single<W: Walk>(part: &Marched, rays: &[Ray], seat: &mut Seat<W>) -> W
             }
             _ => ((part.single)(&Vec3::new(p.x, p.y, p.z)), 0.0),
         };
-        if let Some(walked) = seat.observe(value, slope) {
+        if let Some(walked) = seat.observe(part, rays, value, slope) {
             return walked;
         }
     }

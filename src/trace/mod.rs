@@ -8,6 +8,7 @@
 pub mod analytic;
 mod beam;
 mod bundle;
+mod evidence;
 mod fan;
 mod finding;
 mod hierarchy;
@@ -20,6 +21,7 @@ mod outcome;
 mod packet;
 mod part;
 mod ray;
+mod refuted;
 mod scene_tracer;
 mod single;
 mod stages;
@@ -28,8 +30,10 @@ mod survey;
 mod sweep;
 mod world;
 
+pub use evidence::Witness;
 pub use outcome::{Occlusion, Outcome, Verdict};
 pub use part::PartKind;
 pub use ray::{Footprint, Ray};
+pub use refuted::Refuted;
 pub use scene_tracer::SceneTracer;
 pub use world::{Paint, Visibility, World};

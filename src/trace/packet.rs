@@ -260,7 +260,7 @@ impl Packet {
         for lane in 0..WIDTH {
             let ending = match self.state[lane] {
                 state::HIT => self.hit(lane),
-                state::REFUTED => Ending::broken(self.last_t[lane], self.steps[lane] as u32),
+                state::REFUTED => self.refuted(lane, marched),
                 state::SINGLE => self.single(lane, rules, marched),
                 _ => continue,
             };

@@ -1,6 +1,7 @@
 //! The parts of a world: what a hard union at the root falls apart into.
 
 use super::analytic::{Ball, Block, Facet, HalfSpace};
+use super::evidence::Evidence;
 use super::method::{Demands, Reach};
 use crate::catalogue::Modifier;
 use crate::catalogue::{AnyPrimitive, Bounds, Combination, Operation, with_modifier};
@@ -69,6 +70,8 @@ pub struct Marched {
     gradient_graph: OnceLock<Option<Walked<F64x32>>>,
     /// The combination that can be thinned out, if the field is one.
     pub thicket: Option<Thicket>,
+    /// What rays have found against its constant.
+    pub(super) evidence: Evidence,
 }
 
 /// Closures for a value with its derivative along a ray.
@@ -170,9 +173,9 @@ impl Marched {
             None => is_plain.then(|| compile_convex(node, level)),
         };
         let leaf_constant = |leaf: &Node| leaf.lipschitz_over(region);
-        let thicket = demands
-            .lanes
-            .then(|| Thicket::new(node, level, &leaf_constant));
+        // What rests on a claim is sampled, not thinned out: so a claim that is wrong is noticed.
+        let is_thinned = demands.lanes && !node.rests_on_claim();
+        let thicket = is_thinned.then(|| Thicket::new(node, level, &leaf_constant));
         Ok(Self {
             gradient_wide,
             gradient_graph: OnceLock::new(),
@@ -186,6 +189,7 @@ impl Marched {
             slope,
             gradient: OnceLock::new(),
             ranges: OnceLock::new(),
+            evidence: Evidence::default(),
             node: shape,
         })
     }

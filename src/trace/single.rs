@@ -1,6 +1,7 @@
 //! Lanes that go on by themselves: those that run out of steps, meet what is not a number, start inside of a convex shape,
 //! or walk along a sheet.
 
+use super::evidence::{Trail, Witness};
 use super::method::{Certified, Convex, Ending, Segment, Walk};
 use super::packet::{Lane, Packet, Rules};
 use super::part::{Marched, Slope};
@@ -13,13 +14,7 @@ impl Packet {
     /// Walks a lane to its end outside of the lanes.
     pub(super) fn single(&mut self, lane: usize, rules: &Rules, marched: &Marched) -> Ending {
         let segment = self.segment(lane, rules, marched);
-        let axis = |columns: &[Lane; 3]| DVec3::from_array([0, 1, 2].map(|i| columns[i][lane]));
-        let ray = Ray {
-            origin: axis(&self.origin),
-            direction: axis(&self.direction),
-            t_max: segment.end,
-            footprint: segment.footprint,
-        };
+        let ray = self.ray_of(lane);
         let ending = match &marched.slope {
             Some(slope) => self.single_by_tangents(lane, &ray, segment, slope),
             None => self.single_by_steps(lane, &ray, segment, marched),
@@ -27,6 +22,31 @@ impl Packet {
         let (ending, evaluations) = decided(marched, &ray, segment, ending);
         self.evaluations[lane] += i64::from(evaluations);
         ending
+    }
+
+    /// The end of a lane whose last two samples refute the constant, which are kept.
+    pub(super) fn refuted(&self, lane: usize, marched: &Marched) -> Ending {
+        let ray = self.ray_of(lane);
+        let sample = |t: f64| {
+            let p = ray.at(t);
+            (t, (marched.single)(&Vec3::new(p.x, p.y, p.z)))
+        };
+        let samples = [self.last_t[lane], self.t[lane]].map(sample);
+        marched.evidence.add(Witness::on(&ray, samples));
+        Ending::broken(self.last_t[lane], self.steps[lane] as u32)
+    }
+
+    fn ray_of(&self, lane: usize) -> Ray {
+        let axis = |columns: &[Lane; 3]| DVec3::from_array([0, 1, 2].map(|i| columns[i][lane]));
+        Ray {
+            origin: axis(&self.origin),
+            direction: axis(&self.direction),
+            t_max: self.end[lane],
+            footprint: Footprint {
+                at_origin: self.footprint[lane],
+                spread: self.spread[lane],
+            },
+        }
     }
 
     fn single_by_tangents(
@@ -58,9 +78,11 @@ impl Packet {
         marched: &Marched,
     ) -> Ending {
         let has_last = self.has_last[lane] != 0;
+        let last = has_last.then_some((self.last_t[lane], self.last_value[lane]));
+        let mut trail = Trail::from(last);
         let mut walk = Certified::resume(
             segment,
-            has_last.then_some((self.last_t[lane], self.last_value[lane])),
+            last,
             self.t[lane],
             self.departed[lane] != 0,
             self.steps[lane] as u32 - 1,
@@ -72,6 +94,9 @@ impl Packet {
             let p = ray.at(walk.t());
             self.evaluations[lane] += 1;
             let value = (marched.single)(&Vec3::new(p.x, p.y, p.z));
+            if let Some(samples) = trail.extend(&segment, (walk.t(), value)) {
+                marched.evidence.add(Witness::on(ray, samples));
+            }
             if let Some(ending) = walk.observe(value, 0.0) {
                 return ending;
             }

@@ -1,6 +1,7 @@
 //! The driver of methods that ask for ranges along a ray: one ray at a time. They also answer what others leave open.
 
 use super::Ray;
+use super::evidence::{Trail, Witness};
 use super::march::{Job, Walked};
 use super::method::{Ending, Resolver, Segment, Walk};
 use super::part::Marched;
@@ -58,6 +59,7 @@ pub(super) fn decided(
 fn walk<W: Walk>(part: &Marched, ray: &Ray, job: &Job) -> Walked {
     let mut walk = W::begin(job.segment);
     let mut evaluations = 0;
+    let mut trail = Trail::default();
     loop {
         evaluations += 1;
         let ending = match walk.reach() {
@@ -66,8 +68,15 @@ fn walk<W: Walk>(part: &Marched, ray: &Ray, job: &Job) -> Walked {
                 walk.survey(value, slope)
             }
             None => {
-                let p = ray.at(walk.t());
-                walk.observe((part.single)(&Vec3::new(p.x, p.y, p.z)), 0.0)
+                let (t, p) = (walk.t(), ray.at(walk.t()));
+                let value = (part.single)(&Vec3::new(p.x, p.y, p.z));
+                if let Some(samples) = trail
+                    .extend(&job.segment, (t, value))
+                    .filter(|_| W::RESTS_ON_CONSTANT)
+                {
+                    part.evidence.add(Witness::on(ray, samples));
+                }
+                walk.observe(value, 0.0)
             }
         };
         if let Some(ending) = ending {

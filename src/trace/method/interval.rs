@@ -129,6 +129,7 @@ fn is_sure(range: Interval) -> bool {
 
 impl Walk for IntervalAnalysis {
     const NEEDS_SLOPE: bool = false;
+    const RESTS_ON_CONSTANT: bool = false;
 
     fn begin(segment: Segment) -> Self {
         Self {

@@ -143,6 +143,9 @@ pub trait Walk: Send {
     /// Whether it needs the derivative along the ray.
     const NEEDS_SLOPE: bool;
 
+    /// Whether its steps rest on the Lipschitz constant, so that samples that refute the constant matter.
+    const RESTS_ON_CONSTANT: bool = true;
+
     /// The walk at the start of its segment.
     fn begin(segment: Segment) -> Self;
 

@@ -210,6 +210,7 @@ fn sign(range: Interval) -> Option<bool> {
 
 impl Walk for Reference {
     const NEEDS_SLOPE: bool = false;
+    const RESTS_ON_CONSTANT: bool = false;
 
     fn begin(segment: Segment) -> Self {
         let size = segment.size.max(segment.footprint.at_origin);

@@ -10,7 +10,7 @@ use fieldstone::field::Packets;
 use fieldstone::lang::load;
 use fieldstone::render::{RenderOptions, View, render};
 use fieldstone::scene::{Node, Scene};
-use fieldstone::trace::{Ray, SceneTracer, Visibility, World};
+use fieldstone::trace::{Rays, SceneTracer, Visibility, World};
 use std::hint::black_box;
 use std::path::Path;
 use std::sync::Arc;
@@ -28,8 +28,8 @@ const WIDTH: &str = "320";
 /// How many points the fields are evaluated at.
 const POINTS: usize = 4096;
 
-/// How many camera rays are traced in one batch: a tile of 32 x 32.
-const TILE: usize = 1024;
+/// The side of the squares of camera rays that are traced together.
+const SIDE: u32 = 16;
 
 fn scene(name: &str) -> Scene {
     let path = format!("{}/benches/scenes/{name}.sdf", env!("CARGO_MANIFEST_DIR"));
@@ -84,32 +84,27 @@ fn trace(bencher: Bencher, name: &str) {
     let scene = scene(name);
     let world = world(&scene);
     let rays = rays(&scene);
-    bencher
-        .counter(ItemsCount::new(rays.len()))
-        .bench_local(|| {
-            for tile in rays.chunks(TILE) {
-                black_box(world.nearest(black_box(tile), Visibility::All));
-            }
-        });
+    let count: usize = rays.iter().map(Rays::len).sum();
+    bencher.counter(ItemsCount::new(count)).bench_local(|| {
+        for block in &rays {
+            black_box(world.trace(black_box(block), Visibility::All));
+        }
+    });
 }
 
-/// The camera's rays, tile by tile.
-fn rays(scene: &Scene) -> Vec<Ray> {
+/// The camera's rays, square by square.
+fn rays(scene: &Scene) -> Vec<Rays> {
     let [width, height] = scene.settings.size;
     let view = View::new(&scene.camera, scene.settings.size);
-    let side = 32;
-    let mut rays = Vec::new();
-    for (y, x) in (0..height)
-        .step_by(side)
-        .flat_map(|y| (0..width).step_by(side).map(move |x| (y, x)))
-    {
-        for j in y..(y + side as u32).min(height) {
-            rays.extend(
-                (x..(x + side as u32).min(width)).map(|i| view.ray(f64::from(i), f64::from(j))),
-            );
-        }
-    }
-    rays
+    let square = |x: u32, y: u32| {
+        let row = move |j: u32| (x..(x + SIDE).min(width)).map(move |i| [i, j].map(f64::from));
+        view.rays((y..(y + SIDE).min(height)).flat_map(row))
+    };
+    let starts = |end: u32| (0..end).step_by(SIDE as usize);
+    starts(height)
+        .flat_map(|y| starts(width).map(move |x| (x, y)))
+        .map(|(x, y)| square(x, y))
+        .collect()
 }
 
 /// Pixels a second.

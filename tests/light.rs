@@ -4,7 +4,7 @@ mod stage;
 
 use fieldstone::scene::{Falloff, Fog, Light, Material, Shadow, Source, Term};
 use fieldstone::shade::{Census, FAINTEST, Whitted, reflected_share};
-use fieldstone::trace::Ray;
+use fieldstone::trace::{Ray, Rays};
 use glam::DVec3;
 use stage::*;
 
@@ -594,7 +594,7 @@ fn rays_without_an_answer_show_the_sky_and_are_marked() {
     let scene = under_sky(0.5, 8);
     let whitted = Whitted::new(&scene, &stage);
     let mut census = Census::default();
-    let rays = [down()];
+    let rays = Rays::from_iter([down()]);
     let outcomes = whitted.first_hits(&rays, &mut census);
     let light = whitted.light(&rays, &outcomes, &mut census);
     assert_eq!(light.radiance, [DVec3::splat(0.5)]);
@@ -649,8 +649,12 @@ fn light_does_not_depend_on_what_is_traced_together() {
     let whitted = Whitted::new(&scene, &stage);
     let light = |rays: &[Ray]| {
         let mut census = Census::default();
-        let outcomes = whitted.first_hits(rays, &mut census);
-        (whitted.light(rays, &outcomes, &mut census).radiance, census)
+        let rays: Rays = rays.iter().collect();
+        let outcomes = whitted.first_hits(&rays, &mut census);
+        (
+            whitted.light(&rays, &outcomes, &mut census).radiance,
+            census,
+        )
     };
     let (together, all) = light(&rays);
     let mut sum = Census::default();

@@ -1,7 +1,6 @@
 //! Film: what a rendering recorded, channel by channel, in rows from the top.
 
 use super::Channel;
-use glam::DVec3;
 
 /// One channel of a film.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,23 +69,13 @@ impl Film {
             .map_or(&[], |plane| &plane.values[pixel * n..][..n])
     }
 
-    /// Records pixels in all channels of the film, each at its column and row.
-    pub(super) fn record<'a>(
-        &mut self,
-        pixels: impl Iterator<Item = ([u32; 2], &'a Pixel)> + Clone,
-    ) {
-        let Self {
-            width,
-            height,
-            planes,
-        } = self;
-        for plane in planes {
+    /// Records some pixels, given by column and row, with the numbers of each of the film's channels.
+    pub(super) fn record(&mut self, pixels: &[[u32; 2]], numbers: &[Vec<f32>]) {
+        let places: Vec<usize> = pixels.iter().map(|[i, j]| self.index(*i, *j)).collect();
+        for (plane, numbers) in self.planes.iter_mut().zip(numbers) {
             let n = plane.channel.components();
-            for ([i, j], pixel) in pixels.clone() {
-                assert!(i < *width && j < *height, "the pixel is on the film");
-                let index = j as usize * *width as usize + i as usize;
-                let numbers = pixel.numbers(plane.channel);
-                plane.values[index * n..][..n].copy_from_slice(&numbers[..n]);
+            for (place, numbers) in places.iter().zip(numbers.chunks_exact(n)) {
+                plane.values[place * n..][..n].copy_from_slice(numbers);
             }
         }
     }
@@ -97,35 +86,5 @@ impl Film {
             "the pixel is on the film"
         );
         j as usize * self.width as usize + i as usize
-    }
-}
-
-/// All that is known of one pixel.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Pixel {
-    pub beauty: DVec3,
-    pub color: DVec3,
-    pub depth: f64,
-    pub normal: DVec3,
-    pub steps: f64,
-    pub evaluations: f64,
-    pub verdict: f64,
-    pub object: f64,
-}
-
-impl Pixel {
-    /// The numbers of a channel; a channel of one component is the first.
-    fn numbers(&self, channel: Channel) -> [f32; 3] {
-        let numbers = match channel {
-            Channel::Beauty => self.beauty,
-            Channel::Color => self.color,
-            Channel::Depth => DVec3::splat(self.depth),
-            Channel::Normal => self.normal,
-            Channel::Steps => DVec3::splat(self.steps),
-            Channel::Evaluations => DVec3::splat(self.evaluations),
-            Channel::Verdict => DVec3::splat(self.verdict),
-            Channel::Object => DVec3::splat(self.object),
-        };
-        numbers.to_array().map(|x| x as f32)
     }
 }

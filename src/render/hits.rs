@@ -2,7 +2,7 @@
 
 use super::job::on_threads;
 use super::statistics::Tally;
-use super::tile::{Tile, camera_ray};
+use super::tile::Tile;
 use super::{RenderOptions, Steps, View};
 use crate::scene::Scene;
 use crate::shade::{Census, Surfaces, Whitted};
@@ -28,13 +28,13 @@ impl Hits {
         let whitted = Whitted::new(scene, world);
         let tiles = Tile::all(settings.size, RenderOptions::default().tile);
         let trace = |tile: &Tile| {
-            let ray = |pixel: &[u32; 2]| camera_ray(&view, *pixel, [0.0; 2]);
+            let middle = |pixel: &[u32; 2]| pixel.map(f64::from);
             let mut hits = Self::default();
             for block in &tile.blocks {
-                let rays: Vec<Ray> = block.iter().map(ray).collect();
-                hits.outcomes
-                    .extend(whitted.first_hits(&rays, &mut hits.census));
-                hits.rays.extend(rays);
+                let rays = view.rays(block.iter().map(middle));
+                let outcomes = whitted.first_hits(&rays, &mut hits.census);
+                hits.outcomes.extend(outcomes.iter());
+                hits.rays.extend(rays.iter());
             }
             hits
         };

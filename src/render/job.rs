@@ -1,6 +1,5 @@
 //! The whole picture: tiles on threads.
 
-use super::film::Pixel;
 use super::statistics::{Layout, Tally};
 use super::tile::{Shared, Tile};
 use super::{Channel, Film, Statistics, View};
@@ -92,16 +91,17 @@ pub(super) fn on_threads<T: Sync, R: Send>(
 pub fn render<S: Surfaces + ?Sized>(scene: &Scene, world: &S, options: &RenderOptions) -> Rendered {
     let start = Instant::now();
     let settings = &scene.settings;
+    let film = Film::new(settings.size, options.channels);
+    let channels: Vec<Channel> = film.planes().iter().map(|plane| plane.channel).collect();
     let shared = Shared {
         whitted: Whitted::new(scene, world),
         view: View::new(&scene.camera, settings.size),
         settings,
-        wants_beauty: options.channels.contains(&Channel::Beauty),
-        wants_color: options.channels.contains(&Channel::Color),
+        channels: &channels,
     };
     let tiles = Tile::all(settings.size, options.tile.max(1));
     let result = Mutex::new(Recording {
-        film: Film::new(settings.size, options.channels),
+        film,
         tally: Tally::default(),
         done: 0,
     });
@@ -109,9 +109,9 @@ pub fn render<S: Surfaces + ?Sized>(scene: &Scene, world: &S, options: &RenderOp
         if options.is_cancelled() {
             return;
         }
-        let (pixels, cost) = tile.render(&shared);
+        let (blocks, cost) = tile.render(&shared);
         let done = match result.lock() {
-            Ok(mut recording) => recording.add(tile, &pixels, cost),
+            Ok(mut recording) => recording.add(tile, &blocks, cost),
             // Another thread panicked; rayon passes that on.
             Err(_) => return,
         };
@@ -147,9 +147,10 @@ struct Recording {
 
 impl Recording {
     /// Adds a tile, and gives how many there are now.
-    fn add(&mut self, tile: &Tile, pixels: &[Pixel], cost: Tally) -> usize {
-        let places = tile.blocks.iter().flatten().copied();
-        self.film.record(places.zip(pixels));
+    fn add(&mut self, tile: &Tile, blocks: &[Vec<Vec<f32>>], cost: Tally) -> usize {
+        for (pixels, numbers) in tile.blocks.iter().zip(blocks) {
+            self.film.record(pixels, numbers);
+        }
         self.tally += cost;
         self.done += 1;
         self.done

@@ -3,6 +3,7 @@
 mod channel;
 mod effort;
 mod errors;
+mod exposure;
 mod film;
 mod hits;
 mod job;

@@ -1,12 +1,11 @@
 //! One tile of the picture, from its rays to its pixels.
 
-use super::film::Pixel;
+use super::exposure::Exposure;
 use super::statistics::Tally;
-use super::{View, sampling};
+use super::{Channel, View, sampling};
 use crate::scene::Settings;
 use crate::shade::{Surfaces, Whitted};
-use crate::trace::{Outcome, Ray, Verdict};
-use glam::DVec3;
+use crate::trace::Rays;
 use std::time::Instant;
 
 /// What all tiles of a picture share.
@@ -14,10 +13,8 @@ pub struct Shared<'a, S: Surfaces + ?Sized> {
     pub whitted: Whitted<'a, S>,
     pub view: View,
     pub settings: &'a Settings,
-    /// Whether the light is asked for.
-    pub wants_beauty: bool,
-    /// Whether the flat colour is asked for.
-    pub wants_color: bool,
+    /// What is recorded.
+    pub channels: &'a [Channel],
 }
 
 /// The side of a block, in pixels: the rays of a block are traced together, with all that follows from them, so that
@@ -47,26 +44,23 @@ impl Tile {
             .collect()
     }
 
-    /// The tile's pixels, in its own order, and what they cost.
-    pub fn render<S: Surfaces + ?Sized>(&self, shared: &Shared<S>) -> (Vec<Pixel>, Tally) {
+    /// The numbers of each channel for the pixels of each block, and what they cost.
+    pub fn render<S: Surfaces + ?Sized>(&self, shared: &Shared<S>) -> (Vec<Vec<Vec<f32>>>, Tally) {
         let start = Instant::now();
         let mut tally = Tally::default();
         let samples = shared.settings.samples.max(1);
-        let mut pixels = Vec::new();
-        for block in &self.blocks {
-            let mut sums = vec![Sum::NOTHING; block.len()];
+        let expose = |block: &Vec<[u32; 2]>| {
+            let mut exposure = Exposure::new(shared.channels, block.len());
             for sample in 0..samples {
-                let rays: Vec<Ray> = block
-                    .iter()
-                    .map(|&pixel| sample_ray(shared, pixel, sample))
-                    .collect();
-                expose(shared, &rays, &mut sums, &mut tally);
+                let rays = sample_rays(shared, block, sample);
+                expose(shared, &rays, &mut exposure, &mut tally);
             }
-            tally.unknown_pixels += sums.iter().filter(|sum| sum.is_unknown).count() as u64;
-            pixels.extend(sums.iter().map(|sum| sum.pixel(samples)));
-        }
+            tally.unknown_pixels += exposure.unknown() as u64;
+            exposure.developed(samples)
+        };
+        let blocks = self.blocks.iter().map(expose).collect();
         tally.busy = start.elapsed();
-        (pixels, tally)
+        (blocks, tally)
     }
 }
 
@@ -93,40 +87,32 @@ fn block(corner: [u32; 2], size: [u32; 2]) -> Vec<[u32; 2]> {
 /// Adds one sample of each pixel of a block.
 fn expose<S: Surfaces + ?Sized>(
     shared: &Shared<S>,
-    rays: &[Ray],
-    sums: &mut [Sum],
+    rays: &Rays,
+    exposure: &mut Exposure,
     tally: &mut Tally,
 ) {
     let outcomes = shared.whitted.first_hits(rays, &mut tally.census);
-    for (sum, outcome) in sums.iter_mut().zip(&outcomes) {
-        sum.add(outcome);
-        tally.steps.add(outcome.steps);
+    exposure.add_hits(&outcomes);
+    outcomes
+        .steps
+        .iter()
+        .for_each(|steps| tally.steps.add(*steps));
+    if shared.channels.contains(&Channel::Color) {
+        exposure.add_colors(&shared.whitted.flat_colors(rays, &outcomes));
     }
-    if shared.wants_color {
-        let colors = shared.whitted.flat_colors(rays, &outcomes);
-        for (sum, color) in sums.iter_mut().zip(colors) {
-            sum.color += color;
-        }
-    }
-    if shared.wants_beauty {
-        let light = shared.whitted.light(rays, &outcomes, &mut tally.census);
-        for (i, sum) in sums.iter_mut().enumerate() {
-            sum.beauty += light.radiance[i];
-            sum.is_unknown |= light.unknown[i];
-        }
+    if shared.channels.contains(&Channel::Beauty) {
+        exposure.add_light(&shared.whitted.light(rays, &outcomes, &mut tally.census));
     }
 }
 
-/// The ray of a sample of a pixel.
-fn sample_ray<S: Surfaces + ?Sized>(shared: &Shared<S>, pixel: [u32; 2], sample: u32) -> Ray {
+/// The rays of a sample of some pixels.
+fn sample_rays<S: Surfaces + ?Sized>(shared: &Shared<S>, pixels: &[[u32; 2]], sample: u32) -> Rays {
     let Settings { samples, seed, .. } = *shared.settings;
-    let aside = sampling::place(pixel, sample, samples, seed);
-    camera_ray(&shared.view, pixel, aside)
-}
-
-/// The ray through a place of a pixel, so far from its middle.
-pub(super) fn camera_ray(view: &View, pixel: [u32; 2], [dx, dy]: [f64; 2]) -> Ray {
-    view.ray(f64::from(pixel[0]) + dx, f64::from(pixel[1]) + dy)
+    let place = |pixel: &[u32; 2]| {
+        let [dx, dy] = sampling::place(*pixel, sample, samples, seed);
+        [f64::from(pixel[0]) + dx, f64::from(pixel[1]) + dy]
+    };
+    shared.view.rays(pixels.iter().map(place))
 }
 
 /// The bits at even places, moved together: pairs, then fours, and so on.
@@ -142,63 +128,6 @@ fn even_bits(code: u64) -> u32 {
     HALVES
         .iter()
         .fold(even, |x, (shift, mask)| (x | x >> shift) & mask) as u32
-}
-
-/// The samples of a pixel so far.
-#[derive(Clone, Debug)]
-struct Sum {
-    beauty: DVec3,
-    color: DVec3,
-    steps: u64,
-    evaluations: u64,
-    is_unknown: bool,
-    /// The distance of the nearest hit; infinite where there is none.
-    depth: f64,
-    normal: DVec3,
-    part: u32,
-}
-
-impl Sum {
-    const NOTHING: Self = Self {
-        beauty: DVec3::ZERO,
-        color: DVec3::ZERO,
-        steps: 0,
-        evaluations: 0,
-        is_unknown: false,
-        depth: f64::INFINITY,
-        normal: DVec3::ZERO,
-        part: 0,
-    };
-
-    fn add(&mut self, outcome: &Outcome) {
-        self.steps += u64::from(outcome.steps);
-        self.evaluations += u64::from(outcome.evaluations);
-        self.is_unknown |= outcome.verdict == Verdict::Unknown;
-        if outcome.verdict == Verdict::Hit && outcome.t < self.depth {
-            self.depth = outcome.t;
-            self.normal = outcome.normal;
-            self.part = outcome.part;
-        }
-    }
-
-    fn pixel(&self, samples: u32) -> Pixel {
-        let n = f64::from(samples);
-        let is_hit = self.depth < f64::INFINITY;
-        Pixel {
-            beauty: self.beauty / n,
-            color: self.color / n,
-            depth: self.depth,
-            normal: self.normal,
-            steps: self.steps as f64 / n,
-            evaluations: self.evaluations as f64 / n,
-            verdict: match (self.is_unknown, is_hit) {
-                (true, _) => 2.0,
-                (false, true) => 1.0,
-                (false, false) => 0.0,
-            },
-            object: if is_hit { f64::from(self.part) } else { -1.0 },
-        }
-    }
 }
 
 #[cfg(test)]

@@ -4,8 +4,9 @@
 //! with `t = tan(fov/2)` and `s/t = (W-1)/(H-1)`, so that the centres of the outermost pixels lie on its edges. A
 //! picture of one column or row has it in the middle.
 
+use crate::field::{Level, Task, run_at};
 use crate::scene::{Camera, Projection};
-use crate::trace::{Footprint, Ray};
+use crate::trace::{Footprint, Ray, Rays};
 use glam::DVec3;
 
 /// A camera in front of a grid of pixels.
@@ -20,6 +21,8 @@ pub struct View {
     middle: [f64; 2],
     /// The width and height of a pixel on the screen.
     pixel: [f64; 2],
+    /// The instructions that lanes use.
+    level: Level,
 }
 
 impl View {
@@ -34,6 +37,7 @@ impl View {
             is_parallel: matches!(camera.projection, Projection::Orthographic { .. }),
             middle: size.map(|n| (f64::from(n) - 1.0) / 2.0),
             pixel: camera.pixel(size),
+            level: Level::best(),
         }
     }
 
@@ -49,28 +53,77 @@ impl View {
     /// The ray through column `i` and row `j`, which may lie between pixels.
     pub fn ray(&self, i: f64, j: f64) -> Ray {
         let [x, y] = self.screen(i, j);
-        let aside = self.right * x + self.up * y;
-        // The narrower side of a pixel is what details are measured by.
-        let width = self.pixel[0].min(self.pixel[1]);
-        if self.is_parallel {
-            return Ray {
-                origin: self.eye + aside,
-                direction: self.forward,
-                t_max: f64::INFINITY,
-                footprint: Footprint {
-                    at_origin: width,
-                    spread: 0.0,
-                },
-            };
-        }
+        let (origin, direction) = self.line(x, y);
         Ray {
-            origin: self.eye,
-            direction: (self.forward + aside).normalize(),
+            origin,
+            direction,
             t_max: f64::INFINITY,
-            footprint: Footprint {
-                at_origin: 0.0,
-                spread: width,
-            },
+            footprint: self.footprint(),
+        }
+    }
+
+    /// The rays through these places, each a column and a row: as [`View::ray`], to the bit.
+    pub fn rays(&self, places: impl Iterator<Item = [f64; 2]>) -> Rays {
+        let places: Vec<[f64; 2]> = places.map(|[i, j]| self.screen(i, j)).collect();
+        let mut rays = Rays::zeros(places.len());
+        let Footprint { at_origin, spread } = self.footprint();
+        let [.., ends, widths, spreads] = rays.columns_mut();
+        ends.fill(f64::INFINITY);
+        widths.fill(at_origin);
+        spreads.fill(spread);
+        let task = Lines {
+            view: self,
+            places: &places,
+            rays: &mut rays,
+        };
+        run_at(self.level, task);
+        rays
+    }
+
+    /// Where the ray through a place of the screen starts and goes.
+    #[inline(always)]
+    fn line(&self, x: f64, y: f64) -> (DVec3, DVec3) {
+        let aside = self.right * x + self.up * y;
+        if self.is_parallel {
+            (self.eye + aside, self.forward)
+        } else {
+            (self.eye, (self.forward + aside).normalize())
+        }
+    }
+
+    /// How wide pixels are: the narrower side is what details are measured by.
+    fn footprint(&self) -> Footprint {
+        let width = self.pixel[0].min(self.pixel[1]);
+        let (at_origin, spread) = if self.is_parallel {
+            (width, 0.0)
+        } else {
+            (0.0, width)
+        };
+        Footprint { at_origin, spread }
+    }
+}
+
+/// Finds where rays start and go.
+struct Lines<'a> {
+    view: &'a View,
+    /// Their places on the screen.
+    places: &'a [[f64; 2]],
+    rays: &'a mut Rays,
+}
+
+impl Task for Lines<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let n = self.places.len();
+        let [ox, oy, oz, dx, dy, dz, ..] = self.rays.columns_mut();
+        let (ox, oy, oz) = (&mut ox[..n], &mut oy[..n], &mut oz[..n]);
+        let (dx, dy, dz) = (&mut dx[..n], &mut dy[..n], &mut dz[..n]);
+        for (i, [x, y]) in self.places.iter().enumerate() {
+            let (origin, direction) = self.view.line(*x, *y);
+            (ox[i], oy[i], oz[i]) = (origin.x, origin.y, origin.z);
+            (dx[i], dy[i], dz[i]) = (direction.x, direction.y, direction.z);
         }
     }
 }

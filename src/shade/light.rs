@@ -16,10 +16,9 @@ pub struct Lamp {
 pub struct Arrival {
     /// The unit vector towards the light.
     pub toward: DVec3,
-    /// Its colour and strength, linear RGB.
-    pub radiance: DVec3,
-    /// Where the light stands; `None` where it is infinitely far.
-    pub position: Option<DVec3>,
+    /// The share of the lamp's radiance, which may be more than 1: 0 where it is black, and at the very place of the light,
+    /// where it has no direction.
+    pub strength: f64,
 }
 
 impl Lamp {
@@ -32,55 +31,73 @@ impl Lamp {
         Self { light, edge }
     }
 
-    /// What arrives at `point`: `None` where it is black, and at the very place of the light, where it has no direction.
-    pub fn at(&self, point: DVec3) -> Option<Arrival> {
-        let arrival = match self.light.source {
-            Source::Directional { toward } => Some(Arrival {
-                toward,
-                radiance: self.light.radiance,
-                position: None,
-            }),
-            Source::Point { position, falloff } => self.from(position, falloff, point),
+    /// Its colour and strength, linear RGB, where it arrives in full.
+    pub fn radiance(&self) -> DVec3 {
+        self.light.radiance
+    }
+
+    /// Where it stands; `None` where it is infinitely far.
+    pub fn position(&self) -> Option<DVec3> {
+        match self.light.source {
+            Source::Directional { .. } => None,
+            Source::Point { position, .. } | Source::Spot { position, .. } => Some(position),
+        }
+    }
+
+    /// What arrives at some points, by axis, is told to `sink`, number by number. To be called with the instructions of lanes.
+    #[inline(always)]
+    pub fn shine(&self, points: [&[f64]; 3], mut sink: impl FnMut(usize, Arrival)) {
+        let [x, y, z] = points;
+        let points = x.iter().zip(y).zip(z).enumerate();
+        let points = points.map(|(i, ((x, y), z))| (i, DVec3::new(*x, *y, *z)));
+        // A loop for each kind: within it, all points are alike.
+        match self.light.source {
+            Source::Directional { toward } => {
+                let strength = 1.0;
+                points.for_each(|(i, _)| sink(i, Arrival { toward, strength }));
+            }
+            Source::Point { position, falloff } => {
+                points.for_each(|(i, p)| sink(i, arrival(position, falloff, p)));
+            }
             Source::Spot {
                 position,
                 axis,
                 falloff,
                 ..
-            } => self.from(position, falloff, point).map(|arrival| Arrival {
-                radiance: arrival.radiance * self.share(-arrival.toward.dot(axis)),
-                ..arrival
+            } => points.for_each(|(i, p)| {
+                let Arrival { toward, strength } = arrival(position, falloff, p);
+                let strength = strength * self.share(-toward.dot(axis));
+                sink(i, Arrival { toward, strength });
             }),
-        }?;
-        (arrival.radiance != DVec3::ZERO).then_some(arrival)
-    }
-
-    /// What arrives at `point` from `position`.
-    fn from(&self, position: DVec3, falloff: Falloff, point: DVec3) -> Option<Arrival> {
-        let way = position - point;
-        let distance = way.length();
-        let strength = match falloff {
-            Falloff::None => 1.0,
-            Falloff::InverseSquare => 1.0 / (distance * distance),
-        };
-        (distance > 0.0 && strength.is_finite()).then(|| Arrival {
-            toward: way / distance,
-            radiance: self.light.radiance * strength,
-            position: Some(position),
-        })
+        }
     }
 
     /// The share of a spot's light at an angle from its axis with this `cosine`: 1 inside the inner angle, 0 outside of
     /// the outer, with continuous slope between (smoothstep of the cosine).
+    #[inline(always)]
     fn share(&self, cosine: f64) -> f64 {
         let [outer, inner] = self.edge;
-        if cosine >= inner {
-            return 1.0;
-        }
-        if cosine <= outer {
-            return 0.0;
-        }
         let x = (cosine - outer) / (inner - outer);
-        x * x * (3.0 - 2.0 * x)
+        let between = x * x * (3.0 - 2.0 * x);
+        let beyond = if cosine <= outer { 0.0 } else { between };
+        if cosine >= inner { 1.0 } else { beyond }
+    }
+}
+
+/// What arrives at `point` from `position`.
+#[inline(always)]
+fn arrival(position: DVec3, falloff: Falloff, point: DVec3) -> Arrival {
+    let way = position - point;
+    let distance = way.length();
+    let inverse = 1.0 / distance;
+    let strength = match falloff {
+        Falloff::None => 1.0,
+        Falloff::InverseSquare => inverse * inverse,
+    };
+    let arrives = (distance > 0.0) & (strength < f64::INFINITY);
+    Arrival {
+        toward: way * inverse,
+        strength: if arrives { strength } else { 0.0 },
     }
 }
 
@@ -111,6 +128,15 @@ mod tests {
         })
     }
 
+    /// What arrives at a point; `None` where nothing does.
+    fn at(lamp: &Lamp, point: DVec3) -> Option<DVec3> {
+        let mut radiance = DVec3::ZERO;
+        lamp.shine([&[point.x], &[point.y], &[point.z]], |_, arrival| {
+            radiance = lamp.radiance() * arrival.strength;
+        });
+        (radiance != DVec3::ZERO).then_some(radiance)
+    }
+
     /// The point two units below the spot whose direction is this far from its axis.
     fn below(degrees: f64) -> DVec3 {
         DVec3::new(2.0 * degrees.to_radians().tan(), 0.0, 0.0)
@@ -119,7 +145,7 @@ mod tests {
     #[test]
     fn inverse_square_quarters_at_twice_the_distance() {
         let lamp = point(Falloff::InverseSquare);
-        let at = |y: f64| lamp.at(DVec3::new(0.0, y, 0.0)).unwrap().radiance;
+        let at = |y: f64| at(&lamp, DVec3::new(0.0, y, 0.0)).unwrap();
         assert_eq!(at(1.0), DVec3::new(4.0, 2.0, 1.0));
         assert_eq!(at(0.0), at(1.0) / 4.0);
         assert_eq!(at(-2.0), at(1.0) / 16.0);
@@ -128,18 +154,18 @@ mod tests {
     #[test]
     fn without_falloff_distance_does_not_matter() {
         let lamp = point(Falloff::None);
-        let at = |y: f64| lamp.at(DVec3::new(0.0, y, 0.0)).unwrap().radiance;
+        let at = |y: f64| at(&lamp, DVec3::new(0.0, y, 0.0)).unwrap();
         assert_eq!(at(1.0), at(-1e6));
     }
 
     #[test]
     fn at_its_own_place_a_light_gives_nothing() {
         for falloff in [Falloff::None, Falloff::InverseSquare] {
-            assert_eq!(point(falloff).at(DVec3::new(0.0, 2.0, 0.0)), None);
+            assert_eq!(at(&point(falloff), DVec3::new(0.0, 2.0, 0.0)), None);
         }
         let near = DVec3::new(1e-200, 2.0, 0.0);
         assert_eq!(
-            point(Falloff::InverseSquare).at(near),
+            at(&point(Falloff::InverseSquare), near),
             None,
             "1 / d^2 overflows"
         );
@@ -148,7 +174,7 @@ mod tests {
     #[test]
     fn spot_is_full_inside_and_dark_outside() {
         let lamp = spot(20.0, 30.0);
-        let at = |degrees| lamp.at(below(degrees)).map(|a| a.radiance.x);
+        let at = |degrees| at(&lamp, below(degrees)).map(|radiance| radiance.x);
         assert_eq!(at(0.0), Some(1.0));
         assert_eq!(at(19.999), Some(1.0));
         assert_eq!(at(30.001), None);
@@ -160,8 +186,8 @@ mod tests {
     fn spot_weakens_without_a_jump() {
         let lamp = spot(20.0, 30.0);
         let at = |i: i32| {
-            lamp.at(below(f64::from(i) / 100.0))
-                .map_or(0.0, |a| a.radiance.x)
+            let radiance = at(&lamp, below(f64::from(i) / 100.0));
+            radiance.map_or(0.0, |radiance| radiance.x)
         };
         for i in 1900..3100 {
             let fall = at(i) - at(i + 1);
@@ -172,7 +198,7 @@ mod tests {
     #[test]
     fn spot_with_equal_angles_has_a_sharp_edge() {
         let lamp = spot(30.0, 30.0);
-        assert_eq!(lamp.at(below(29.999)).unwrap().radiance.x, 1.0);
-        assert_eq!(lamp.at(below(30.001)), None);
+        assert_eq!(at(&lamp, below(29.999)).unwrap().x, 1.0);
+        assert_eq!(at(&lamp, below(30.001)), None);
     }
 }

@@ -13,17 +13,22 @@ use glam::DVec3;
 /// Half the distance between 1 and the next number: the largest relative error of rounding.
 const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
-/// The point where a ray starts that leaves `hit` towards the side of the unit normal `side`.
-pub fn start(hit: &Outcome, side: DVec3) -> DVec3 {
-    let rounding = 4.0 * UNIT_ROUNDOFF * (hit.t + hit.point.abs().max_element());
-    hit.point + side * (2.0 * (hit.error + rounding))
+/// Where a ray starts that leaves a hit at `point`, at distance `t` with this `error`, towards the side of the unit normal
+/// `side`.
+#[inline(always)]
+pub fn start(point: DVec3, t: f64, error: f64, side: DVec3) -> DVec3 {
+    let size = point.abs();
+    let larger = if size.x > size.y { size.x } else { size.y };
+    let largest = if larger > size.z { larger } else { size.z };
+    let rounding = 4.0 * UNIT_ROUNDOFF * (t + largest);
+    point + side * (2.0 * (error + rounding))
 }
 
 /// The ray that leaves `hit` along `direction`, of length 1, on the side of `side`; `footprint` is that of the ray that
 /// arrived, and its width at the hit goes on growing.
 pub fn leaving(hit: &Outcome, side: DVec3, direction: DVec3, footprint: Footprint) -> Ray {
     Ray {
-        origin: start(hit, side),
+        origin: start(hit.point, hit.t, hit.error, side),
         direction,
         t_max: f64::INFINITY,
         footprint: Footprint {
@@ -34,6 +39,7 @@ pub fn leaving(hit: &Outcome, side: DVec3, direction: DVec3, footprint: Footprin
 }
 
 /// How far a shadow ray to a light at `distance` is followed: what stands at the light or behind it casts no shadow.
+#[inline(always)]
 pub fn before(distance: f64) -> f64 {
     distance * (1.0 - 4.0 * UNIT_ROUNDOFF)
 }
@@ -54,6 +60,10 @@ mod tests {
             steps: 1,
             evaluations: 1,
         }
+    }
+
+    fn start(hit: &Outcome, side: DVec3) -> DVec3 {
+        super::start(hit.point, hit.t, hit.error, side)
     }
 
     #[test]

@@ -12,31 +12,52 @@ pub fn ambient(surface: &Surface) -> DVec3 {
     surface.color * surface.ambient
 }
 
-/// The share of a light's radiance that the surface sends to the viewer: `Kd (L.N) + Ks (R.V)^n`. All vectors have
-/// length 1: `normal` on the viewer's side, `toward` the light, `view` towards the viewer. Zero where the light is
+/// The cosines that decide what a surface shows of a light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cosines {
+    /// That of the angle between light and normal, L.N.
+    pub light: f64,
+    /// That of the angle between the mirrored light and the viewer, R.V, for Phong's highlight.
+    pub mirror: f64,
+    /// That of the angle between the normal and half way from light to viewer, N.H, for Blinn's.
+    pub halfway: f64,
+}
+
+impl Cosines {
+    /// The cosines between vectors of length 1: `normal` on the viewer's side, `toward` the light, `view` towards the viewer.
+    #[inline(always)]
+    pub fn new(normal: DVec3, toward: DVec3, view: DVec3) -> Self {
+        let light = normal.dot(toward);
+        let sum = toward + view;
+        let scale = 1.0 / sum.length();
+        // Light opposite to the viewer has nothing half way.
+        let is_halfway = (scale > 0.0) & (scale < f64::INFINITY);
+        let halfway = normal.dot(sum * scale);
+        Self {
+            light,
+            mirror: (normal * (2.0 * light) - toward).dot(view),
+            halfway: if is_halfway { halfway } else { 0.0 },
+        }
+    }
+}
+
+/// The share of a light's radiance that the surface sends to the viewer: `Kd (L.N) + Ks (R.V)^n`. Zero where the light is
 /// behind the surface.
-pub fn reflectance(surface: &Surface, normal: DVec3, toward: DVec3, view: DVec3) -> DVec3 {
-    let cosine = normal.dot(toward);
-    if cosine.is_nan() || cosine <= 0.0 {
+pub fn reflectance(surface: &Surface, cosines: &Cosines) -> DVec3 {
+    if cosines.light.is_nan() || cosines.light <= 0.0 {
         return DVec3::ZERO;
     }
-    let diffuse = surface.color * (surface.diffuse * cosine);
-    diffuse + DVec3::splat(surface.specular * highlight(surface, normal, toward, view))
+    let diffuse = surface.color * (surface.diffuse * cosines.light);
+    diffuse + DVec3::splat(surface.specular * highlight(surface, cosines))
 }
 
 /// The highlight of a light in front of the surface, in [0, 1].
-fn highlight(surface: &Surface, normal: DVec3, toward: DVec3, view: DVec3) -> f64 {
+fn highlight(surface: &Surface, cosines: &Cosines) -> f64 {
     if surface.specular == 0.0 {
         return 0.0;
     }
-    let phong = || {
-        let mirrored = normal * (2.0 * normal.dot(toward)) - toward;
-        lobe(mirrored.dot(view), surface.shininess)
-    };
-    let blinn = || {
-        let halfway = (toward + view).normalize_or_zero();
-        lobe(normal.dot(halfway), surface.shininess)
-    };
+    let phong = || lobe(cosines.mirror, surface.shininess);
+    let blinn = || lobe(cosines.halfway, surface.shininess);
     match surface.blinn {
         0.0 => phong(),
         1.0 => blinn(),
@@ -71,6 +92,10 @@ mod tests {
     use super::*;
     use crate::scene::{Material, Model, Term};
     use std::sync::Arc;
+
+    fn reflectance(surface: &Surface, normal: DVec3, toward: DVec3, view: DVec3) -> DVec3 {
+        super::reflectance(surface, &Cosines::new(normal, toward, view))
+    }
 
     fn surface(diffuse: f64, specular: f64, shininess: f64, model: Model) -> Surface {
         let material = Arc::new(Material {

@@ -7,7 +7,7 @@
 use super::attenuation::absorbed;
 use super::medium::{Media, Medium};
 use super::{Census, Features, Surface, Surfaces, offset};
-use crate::trace::{Outcome, Ray, Verdict, Visibility};
+use crate::trace::{Outcome, Ray, Rays, Verdict, Visibility};
 use glam::DVec3;
 
 /// How many boundaries a shadow ray may cross before it is given up as unknown, and taken as blocked.
@@ -17,7 +17,7 @@ const MAX_CROSSINGS: usize = 256;
 #[derive(Clone, Debug, Default)]
 pub struct ShadowRays {
     /// The rays.
-    pub rays: Vec<Ray>,
+    pub rays: Rays,
     /// The media around their starts, one for each where shadows are tinted, else none.
     pub media: Vec<Media>,
 }
@@ -80,7 +80,7 @@ fn stop<S: Surfaces + ?Sized>(
 /// Shadow rays on their way.
 #[derive(Default)]
 struct Walkers {
-    rays: Vec<Ray>,
+    rays: Rays,
     media: Vec<Media>,
     /// Which shadow ray each of them is.
     indices: Vec<usize>,
@@ -127,7 +127,7 @@ fn step<S: Surfaces + ?Sized>(
     );
     let mut further = Walkers::default();
     for (i, hit) in outcomes.iter().enumerate() {
-        let (ray, media, index) = (&walkers.rays[i], &walkers.media[i], walkers.indices[i]);
+        let (ray, media, index) = (&walkers.rays.at(i), &walkers.media[i], walkers.indices[i]);
         census.evaluations += u64::from(hit.evaluations);
         let passage = &mut passages[index];
         let is_hit = hit.verdict == Verdict::Hit;
@@ -147,11 +147,11 @@ fn step<S: Surfaces + ?Sized>(
         if passage.share == DVec3::ZERO {
             continue;
         }
-        let next = straight_on(ray, hit);
+        let next = straight_on(ray, &hit);
         if next.t_max > 0.0 {
             let medium = Medium::new(hit.part, &surface);
             let is_entering = hit.normal.dot(ray.direction) <= 0.0;
-            further.rays.push(next);
+            further.rays.push(&next);
             further.media.push(media.across(medium, is_entering).beyond);
             further.indices.push(index);
         }

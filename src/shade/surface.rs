@@ -120,6 +120,11 @@ impl Surface {
         }
     }
 
+    /// Whether it sends reflected or refracted rays.
+    pub fn sends_on(&self) -> bool {
+        self.reflect != 0.0 || self.refract != 0.0
+    }
+
     /// Whether it answers light, so that shadow rays are of use.
     pub fn is_lit(&self) -> bool {
         self.specular != 0.0 || (self.diffuse != 0.0 && self.color != DVec3::ZERO)

@@ -1,7 +1,7 @@
 //! What shading asks of the world.
 
 use crate::scene::Material;
-use crate::trace::{Occlusion, Outcome, Paint, Ray, Visibility, World};
+use crate::trace::{Occlusion, Outcomes, Paint, Rays, Visibility, World};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -9,10 +9,10 @@ use std::sync::Arc;
 /// checked apart from those of marching.
 pub trait Surfaces: Sync {
     /// The first surface on each ray.
-    fn nearest(&self, rays: &[Ray], visibility: Visibility) -> Vec<Outcome>;
+    fn nearest(&self, rays: &Rays, visibility: Visibility) -> Outcomes;
 
     /// Whether any opaque surface lies on each ray; what casts a tinted shadow or none is passed over.
-    fn occluded(&self, rays: &[Ray]) -> Vec<Occlusion>;
+    fn occluded(&self, rays: &Rays) -> Vec<Occlusion>;
 
     /// The materials at a point of the surface of `part`, with their shares.
     fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>>;
@@ -28,12 +28,12 @@ pub trait Surfaces: Sync {
 }
 
 impl Surfaces for World {
-    fn nearest(&self, rays: &[Ray], visibility: Visibility) -> Vec<Outcome> {
-        Self::nearest(self, rays, visibility)
+    fn nearest(&self, rays: &Rays, visibility: Visibility) -> Outcomes {
+        self.trace(rays, visibility)
     }
 
-    fn occluded(&self, rays: &[Ray]) -> Vec<Occlusion> {
-        Self::occluded(self, rays)
+    fn occluded(&self, rays: &Rays) -> Vec<Occlusion> {
+        self.occlusions(rays)
     }
 
     fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>> {

@@ -1,11 +1,14 @@
 //! Waves: all rays of one depth, in the order of their samples.
 
 use super::medium::Media;
-use crate::trace::Ray;
+use crate::trace::{Ray, Rays};
 use glam::DVec3;
 
 /// Waves with more rays are cut between samples, so that memory stays bounded where every hit sends two rays.
 const LARGEST_WAVE: usize = 1 << 15;
+
+/// Room that waves begin with.
+const USUAL_WAVE: usize = 256;
 
 /// What a ray of a wave carries.
 #[derive(Clone, Debug)]
@@ -24,24 +27,20 @@ pub struct Wave {
     /// How often they were reflected or refracted.
     pub depth: u32,
     /// Where they go.
-    pub rays: Vec<Ray>,
+    pub rays: Rays,
     /// What they carry.
     pub paths: Vec<Path>,
 }
 
-impl Wave {
-    /// The wave of these of the camera's rays, by number, in empty space.
-    pub fn from_camera(rays: &[Ray], samples: &[usize]) -> Self {
-        let path = |sample: &usize| Path {
+impl Path {
+    /// The paths of that many camera rays, in empty space.
+    pub fn from_camera(rays: usize) -> Vec<Self> {
+        let path = |sample| Self {
             weight: DVec3::ONE,
-            sample: *sample,
+            sample,
             media: Media::default(),
         };
-        Self {
-            depth: 0,
-            rays: samples.iter().map(|sample| rays[*sample]).collect(),
-            paths: samples.iter().map(path).collect(),
-        }
+        (0..rays).map(path).collect()
     }
 }
 
@@ -75,12 +74,12 @@ impl Waves {
         if !self.waves.last().is_some_and(takes_more) {
             self.waves.push(Wave {
                 depth: self.depth,
-                rays: Vec::new(),
-                paths: Vec::new(),
+                rays: Rays::with_capacity(USUAL_WAVE),
+                paths: Vec::with_capacity(USUAL_WAVE),
             });
         }
         if let Some(wave) = self.waves.last_mut() {
-            wave.rays.push(ray);
+            wave.rays.push(&ray);
             wave.paths.push(path);
         }
     }

@@ -11,14 +11,17 @@
 
 use super::attenuation::{absorbed, sight, through_fog};
 use super::light::Lamp;
+use super::lit::{CHUNK, Face, Lit, Shine};
 use super::meeting::{Meeting, Onward};
+use super::palette::{Looks, Palette};
 use super::shadow::{ShadowRays, passages};
 use super::wave::{Path, Wave, Waves};
-use super::{Census, Features, Surface, Surfaces, offset, phong, sky};
-use crate::scene::{Fog, Material, Scene, Sky};
-use crate::trace::{Outcome, Ray, Verdict, Visibility};
+use super::{Census, Features, Surface, Surfaces, phong, sky};
+use crate::field::{Level, run_at};
+use crate::scene::{Fog, Scene, Sky};
+use crate::trace::{Outcomes, Rays, Verdict, Visibility};
 use glam::DVec3;
-use std::sync::Arc;
+use std::cell::Cell;
 
 /// Rays whose weight is below this in all channels are left out: half a step of an 8-bit picture.
 pub const FAINTEST: f64 = 1.0 / 512.0;
@@ -31,8 +34,9 @@ pub struct Whitted<'a, S: Surfaces + ?Sized> {
     sky: Sky,
     fog: Option<Fog>,
     depth: u32,
-    /// The surfaces of the materials that are the same at all points, by their numbers.
-    plain: Vec<Option<Surface>>,
+    palette: Palette,
+    /// The instructions that lanes use.
+    level: Level,
 }
 
 /// What the eye receives along its rays.
@@ -45,11 +49,44 @@ pub struct Received {
 }
 
 /// What is gained if shadow rays pass.
-#[derive(Default)]
 struct Gains {
     rays: ShadowRays,
     samples: Vec<usize>,
     radiance: Vec<DVec3>,
+}
+
+/// Where light is collected.
+struct Studio<'a> {
+    light: &'a mut Received,
+    lit: &'a mut Lit,
+    census: &'a mut Census,
+}
+
+/// Rays of one depth with what they carry and met.
+struct Meetings<'a> {
+    rays: &'a Rays,
+    paths: &'a [Path],
+    outcomes: &'a Outcomes,
+    looks: &'a Looks<'a>,
+}
+
+thread_local! {
+    /// Memory that is used again and again.
+    static LIT: Cell<Option<Box<Lit>>> = const { Cell::new(None) };
+}
+
+impl Gains {
+    /// None yet, with room for as many.
+    fn up_to(count: usize) -> Self {
+        Self {
+            rays: ShadowRays {
+                rays: Rays::with_capacity(count),
+                media: Vec::new(),
+            },
+            samples: Vec::with_capacity(count),
+            radiance: Vec::with_capacity(count),
+        }
+    }
 }
 
 impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
@@ -63,7 +100,8 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             sky: scene.sky,
             fog: scene.fog.filter(|_| features.fog),
             depth: scene.settings.depth,
-            plain: surfaces.materials().iter().map(plain_surface).collect(),
+            palette: Palette::new(surfaces.materials()),
+            level: Level::best(),
         }
     }
 
@@ -73,25 +111,24 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
     }
 
     /// The first surface on each ray, as far as one sees through the fog.
-    fn nearest(&self, rays: &[Ray]) -> Vec<Outcome> {
+    fn nearest(&self, rays: &Rays) -> Outcomes {
         let Some(fog) = &self.fog else {
             return self.surfaces.nearest(rays, Visibility::All);
         };
-        let seen = |ray: &Ray| Ray {
-            t_max: ray.t_max.min(sight(fog)),
-            ..*ray
-        };
-        let rays: Vec<Ray> = rays.iter().map(seen).collect();
+        let mut rays = rays.clone();
+        let far = sight(fog);
+        let ends = rays.t_max_mut();
+        ends.iter_mut().for_each(|end| *end = end.min(far));
         self.surfaces.nearest(&rays, Visibility::All)
     }
 
     /// What the camera rays hit.
-    pub fn first_hits(&self, rays: &[Ray], census: &mut Census) -> Vec<Outcome> {
+    pub fn first_hits(&self, rays: &Rays, census: &mut Census) -> Outcomes {
         let outcomes = census.timed(|t| &mut t.primary, || self.nearest(rays));
         census.primary += rays.len() as u64;
-        for outcome in &outcomes {
-            census.evaluations += u64::from(outcome.evaluations);
-            match outcome.verdict {
+        census.evaluations += sum(&outcomes.evaluations);
+        for verdict in &outcomes.verdict {
+            match verdict {
                 Verdict::Hit => census.hits += 1,
                 Verdict::Miss => census.misses += 1,
                 Verdict::Unknown => census.unknown += 1,
@@ -101,91 +138,92 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
     }
 
     /// The colours of the materials that the camera rays hit, without any light, and of the sky.
-    pub fn flat_colors(&self, rays: &[Ray], outcomes: &[Outcome]) -> Vec<DVec3> {
-        let color = |(ray, outcome): (&Ray, &Outcome)| match self.surface(outcome) {
+    pub fn flat_colors(&self, rays: &Rays, outcomes: &Outcomes) -> Vec<DVec3> {
+        let looks = self.palette.looks(self.surfaces, outcomes);
+        let color = |i: usize| match looks.at(i) {
             Some(surface) => surface.color,
-            None => sky::radiance(&self.sky, ray.direction),
+            None => self.sky_along(rays, i),
         };
-        rays.iter().zip(outcomes).map(color).collect()
+        (0..rays.len()).map(color).collect()
     }
 
     /// The light along camera rays that hit `outcomes`.
-    pub fn light(&self, rays: &[Ray], outcomes: &[Outcome], census: &mut Census) -> Received {
+    pub fn light(&self, rays: &Rays, outcomes: &Outcomes, census: &mut Census) -> Received {
         let mut light = Received {
             radiance: vec![DVec3::ZERO; rays.len()],
             unknown: vec![false; rays.len()],
         };
-        // Rays that met nothing see the sky, unless fog lies before it.
-        let is_sky = |outcome: &Outcome| outcome.verdict == Verdict::Miss && self.fog.is_none();
-        let mut samples = Vec::with_capacity(rays.len());
-        let mut met = Vec::with_capacity(rays.len());
-        for (sample, outcome) in outcomes.iter().enumerate() {
-            if is_sky(outcome) {
-                light.radiance[sample] = sky::radiance(&self.sky, rays[sample].direction);
-            } else {
-                samples.push(sample);
-                met.push(*outcome);
-            }
-        }
-        let wave = Wave::from_camera(rays, &samples);
-        let mut waiting = self.shade(wave, &met, &mut light, census);
+        let mut lit = LIT.with(Cell::take).unwrap_or_else(Lit::new);
+        let mut studio = Studio {
+            light: &mut light,
+            lit: &mut lit,
+            census,
+        };
+        let paths = Path::from_camera(rays.len());
+        let mut waiting = self.shade(0, rays, paths, outcomes, &mut studio);
         while let Some(wave) = waiting.pop() {
+            let census = &mut *studio.census;
             let outcomes = census.timed(|t| &mut t.secondary, || self.nearest(&wave.rays));
-            for outcome in &outcomes {
-                census.evaluations += u64::from(outcome.evaluations);
-                census.unknown_secondary += u64::from(outcome.verdict == Verdict::Unknown);
-            }
-            waiting.extend(self.shade(wave, &outcomes, &mut light, census));
+            census.evaluations += sum(&outcomes.evaluations);
+            let is_unknown = |verdict: &&Verdict| **verdict == Verdict::Unknown;
+            census.unknown_secondary += outcomes.verdict.iter().filter(is_unknown).count() as u64;
+            let Wave { depth, rays, paths } = wave;
+            waiting.extend(self.shade(depth, &rays, paths, &outcomes, &mut studio));
         }
+        LIT.with(|cell| cell.set(Some(lit)));
         light
     }
 
-    /// Adds what a wave receives to `light`, and gives the waves that follow from it.
+    /// Adds what the rays of a depth receive to the light, and gives the waves that follow from them.
     fn shade(
         &self,
-        wave: Wave,
-        outcomes: &[Outcome],
-        light: &mut Received,
-        census: &mut Census,
+        depth: u32,
+        rays: &Rays,
+        mut paths: Vec<Path>,
+        outcomes: &Outcomes,
+        studio: &mut Studio,
     ) -> Vec<Wave> {
-        let mut next = Waves::new(wave.depth + 1);
-        let mut gains = Gains::default();
-        let rays = wave.rays.iter().zip(wave.paths);
-        for ((ray, mut path), outcome) in rays.zip(outcomes) {
+        let looks = self.palette.looks(self.surfaces, outcomes);
+        let light = &mut *studio.light;
+        for (i, path) in paths.iter_mut().enumerate() {
             let sample = path.sample;
-            light.unknown[sample] |= outcome.verdict == Verdict::Unknown;
-            let surface = self.surface(outcome);
-            let distance = surface.map_or(f64::INFINITY, |_| outcome.t);
-            light.radiance[sample] += self.travel(&mut path, distance);
-            let Some(surface) = &surface else {
-                light.radiance[sample] += self.background(ray, &path);
-                continue;
+            light.unknown[sample] |= outcomes.verdict[i] == Verdict::Unknown;
+            let surface = looks.at(i);
+            let distance = surface.map_or(f64::INFINITY, |_| outcomes.t()[i]);
+            light.radiance[sample] += self.travel(path, distance);
+            light.radiance[sample] += match surface {
+                Some(surface) => path.weight * phong::ambient(surface),
+                // Nothing of the sky may be left on the infinite way.
+                None if path.weight == DVec3::ZERO => DVec3::ZERO,
+                None => path.weight * self.sky_along(rays, i),
             };
-            let hit = Meeting::new(ray, &path, outcome, surface);
-            light.radiance[sample] += path.weight * phong::ambient(surface);
-            if self.features.lit && surface.is_lit() {
-                self.ask_lamps(&hit, &mut gains);
-            }
-            if self.features.reflects {
-                self.send_on(&hit, &mut next, census);
-            }
         }
-        let passed = passages(self.surfaces, &self.features, &gains.rays, census);
-        for (i, passage) in passed.iter().enumerate() {
-            light.radiance[gains.samples[i]] += gains.radiance[i] * passage.share;
-            light.unknown[gains.samples[i]] |= passage.unknown;
+        let wave = Meetings {
+            rays,
+            paths: &paths,
+            outcomes,
+            looks: &looks,
+        };
+        if self.features.lit {
+            self.ask_lamps(&wave, studio);
+        }
+        let mut next = Waves::new(depth + 1);
+        if self.features.reflects {
+            for (i, path) in paths.iter().enumerate() {
+                if let Some(surface) = looks.at(i).filter(|surface| surface.sends_on()) {
+                    let (ray, outcome) = (rays.at(i), outcomes.at(i));
+                    let hit = Meeting::new(&ray, path, &outcome, surface);
+                    self.send_on(&hit, &mut next, studio.census);
+                }
+            }
         }
         next.waves
     }
 
-    /// What was hit; `None` where nothing was.
-    fn surface(&self, outcome: &Outcome) -> Option<Surface> {
-        if outcome.verdict != Verdict::Hit {
-            return None;
-        }
-        let number = self.surfaces.sole(outcome.part);
-        let plain = number.and_then(|number| self.plain[number]);
-        plain.or_else(|| Surface::of(self.surfaces, outcome.part, outcome.point))
+    /// The sky behind a ray.
+    fn sky_along(&self, rays: &Rays, i: usize) -> DVec3 {
+        let [x, y, z] = rays.direction();
+        sky::radiance(&self.sky, DVec3::new(x[i], y[i], z[i]))
     }
 
     /// Weakens a path over `distance`, and gives the light that fog adds to it on the way.
@@ -202,41 +240,79 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         scattered
     }
 
-    /// The sky behind a ray, unless nothing of it is left on the infinite way.
-    fn background(&self, ray: &Ray, path: &Path) -> DVec3 {
-        if path.weight == DVec3::ZERO {
-            return DVec3::ZERO;
+    /// Adds what the lamps send to a wave's hits. Lamp by lamp, so that shadow rays that are traced together go to one place.
+    fn ask_lamps(&self, wave: &Meetings, studio: &mut Studio) {
+        let count = wave.rays.len();
+        let mut gains: Vec<Gains> = self.lamps.iter().map(|_| Gains::up_to(count)).collect();
+        let is_lit = |i: usize| wave.looks.at(i).is_some_and(Surface::is_lit);
+        for first in (0..wave.rays.len()).step_by(CHUNK) {
+            let numbers = first..wave.rays.len().min(first + CHUNK);
+            if !numbers.clone().any(is_lit) {
+                continue;
+            }
+            let (rays, outcomes) = (wave.rays, wave.outcomes);
+            let lit = &mut *studio.lit;
+            run_at(
+                self.level,
+                Face {
+                    lit,
+                    rays,
+                    outcomes,
+                    numbers,
+                },
+            );
+            for (lamp, gains) in self.lamps.iter().zip(&mut gains) {
+                run_at(
+                    self.level,
+                    Shine {
+                        lit,
+                        lamp,
+                        rays,
+                        outcomes,
+                    },
+                );
+                self.collect(wave, lamp, lit, gains);
+            }
         }
-        path.weight * sky::radiance(&self.sky, ray.direction)
+        for gains in gains {
+            let Gains {
+                rays,
+                samples,
+                radiance,
+            } = gains;
+            let passed = passages(self.surfaces, &self.features, &rays, studio.census);
+            for (i, passage) in passed.iter().enumerate() {
+                studio.light.radiance[samples[i]] += radiance[i] * passage.share;
+                studio.light.unknown[samples[i]] |= passage.unknown;
+            }
+        }
     }
 
-    /// Collects what each lamp adds at a hit if nothing is in the way, with the ray that finds out.
-    fn ask_lamps(&self, hit: &Meeting, gains: &mut Gains) {
-        let view = -hit.ray.direction;
-        for lamp in &self.lamps {
-            let Some(arrival) = lamp.at(hit.outcome.point) else {
+    /// Collects what a lamp adds at hits if nothing is in the way, with the rays that find out.
+    fn collect(&self, wave: &Meetings, lamp: &Lamp, lit: &Lit, gains: &mut Gains) {
+        let mut hits: Vec<u32> = Vec::with_capacity(CHUNK);
+        for (i, number) in lit.numbers.clone().enumerate() {
+            let (strength, cosines) = lit.shine(i);
+            if strength == 0.0 || cosines.light.is_nan() || cosines.light <= 0.0 {
+                continue;
+            }
+            let Some(surface) = wave.looks.at(number) else {
                 continue;
             };
-            let seen = phong::reflectance(hit.surface, hit.normal, arrival.toward, view);
-            if seen == DVec3::ZERO {
+            let seen = phong::reflectance(surface, &cosines);
+            let radiance = lamp.radiance() * strength;
+            if seen == DVec3::ZERO || radiance == DVec3::ZERO {
                 continue;
             }
-            let mut ray = hit.leaving(hit.normal, arrival.toward);
-            if let Some(position) = arrival.position {
-                let way = position - ray.origin;
-                let distance = way.length();
-                ray.direction = way / distance;
-                ray.t_max = offset::before(distance);
-            }
-            gains.rays.rays.push(ray);
+            let path = &wave.paths[number];
+            hits.push(i as u32);
             if self.features.tinted_shadows {
-                gains.rays.media.push(hit.path.media.clone());
+                gains.rays.media.push(path.media.clone());
             }
-            gains.samples.push(hit.path.sample);
-            gains
-                .radiance
-                .push(hit.path.weight * seen * arrival.radiance);
+            gains.samples.push(path.sample);
+            gains.radiance.push(path.weight * seen * radiance);
         }
+        lit.shadow_rays(&hits, &mut gains.rays.rays);
     }
 
     /// Adds the reflected and the refracted ray of a hit to the next waves, unless they are too deep or too faint.
@@ -295,7 +371,6 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
     }
 }
 
-/// The surface of a material that is the same at all points.
-fn plain_surface(material: &Arc<Material>) -> Option<Surface> {
-    (!material.has_patterns()).then(|| Surface::new(material, [0.0; 3]))
+fn sum(counts: &[u32]) -> u64 {
+    counts.iter().map(|count| u64::from(*count)).sum()
 }

@@ -52,7 +52,7 @@ impl Ball {
 
     /// The outward unit normal at a point of the surface.
     pub fn normal(&self, p: DVec3) -> DVec3 {
-        (p - self.centre) / (p - self.centre).length()
+        (p - self.centre).normalize()
     }
 
     /// Both crossings of the line in order, and half their distance; not numbers where the line does not meet the sphere.

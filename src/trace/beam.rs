@@ -1,7 +1,14 @@
 //! Beams: rays that are traced together, and what surely holds all of them.
 
-use super::Ray;
+#![allow(
+    clippy::needless_range_loop,
+    reason = "lanes run through many arrays side by side"
+)]
+
+use super::Rays;
+use super::bundle::{Bundle, WIDTH, across, larger, lesser, place};
 use crate::catalogue::Bounds;
+use crate::field::{Level, Task, run_at};
 use glam::DVec3;
 
 /// What holds a number of rays: ranges of their origins and directions, and a cone about their mean.
@@ -19,25 +26,67 @@ pub(super) struct Beam {
     spread: f64,
 }
 
-impl Beam {
-    /// The beam of one or more rays.
-    pub fn around<'a>(rays: impl Iterator<Item = &'a Ray> + Clone) -> Self {
-        let mut origins = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-        let mut directions = origins;
-        for ray in rays.clone() {
-            origins = [origins[0].min(ray.origin), origins[1].max(ray.origin)];
-            directions = [
-                directions[0].min(ray.direction),
-                directions[1].max(ray.direction),
-            ];
+/// The ranges of a bundle's columns.
+struct Ranges<'a>(&'a Bundle);
+
+impl Task for Ranges<'_> {
+    /// Of origins and directions, each the least and the largest.
+    type Output = [[DVec3; 2]; 2];
+
+    #[inline(always)]
+    fn run(self) -> [[DVec3; 2]; 2] {
+        let b = self.0;
+        let mut ranges = [[DVec3::ZERO; 2]; 2];
+        for (range, columns) in ranges.iter_mut().zip([&b.origin, &b.direction]) {
+            for axis in 0..3 {
+                let (mut low, mut high) = ([f64::INFINITY; WIDTH], [f64::NEG_INFINITY; WIDTH]);
+                for some in columns[axis][..b.lanes()].chunks_exact(WIDTH) {
+                    for lane in 0..WIDTH {
+                        low[lane] = lesser(some[lane], low[lane]);
+                        high[lane] = larger(some[lane], high[lane]);
+                    }
+                }
+                range[0][axis] = across(low, lesser);
+                range[1][axis] = across(high, larger);
+            }
         }
+        ranges
+    }
+}
+
+/// The largest distances of a bundle's origins and directions from these, squared.
+struct Distances<'a> {
+    bundle: &'a Bundle,
+    from: [DVec3; 2],
+}
+
+impl Task for Distances<'_> {
+    type Output = [f64; 2];
+
+    #[inline(always)]
+    fn run(self) -> [f64; 2] {
+        let b = self.bundle;
+        let mut most = [[0.0f64; WIDTH]; 2];
+        for first in (0..b.lanes()).step_by(WIDTH) {
+            for (k, columns) in [&b.origin, &b.direction].into_iter().enumerate() {
+                for lane in 0..WIDTH {
+                    let square = place(columns, first + lane).distance_squared(self.from[k]);
+                    most[k][lane] = larger(square, most[k][lane]);
+                }
+            }
+        }
+        [across(most[0], larger), across(most[1], larger)]
+    }
+}
+
+impl Beam {
+    /// The beam of all rays of a bundle.
+    pub fn around(bundle: &Bundle, level: Level) -> Self {
+        let [origins, directions] = run_at(level, Ranges(bundle));
         let origin = 0.5 * (origins[0] + origins[1]);
         let direction = 0.5 * (directions[0] + directions[1]);
-        let (mut width, mut spread) = (0.0f64, 0.0f64);
-        for ray in rays {
-            width = width.max(ray.origin.distance_squared(origin));
-            spread = spread.max(ray.direction.distance_squared(direction));
-        }
+        let from = [origin, direction];
+        let [width, spread] = run_at(level, Distances { bundle, from });
         // Room for the rounding of the square roots and of places along the rays.
         let room = 1.0 + 1e-12;
         Self {
@@ -97,7 +146,7 @@ impl Beam {
 
     /// The half of the beam that a ray belongs to, if it is cut across where its rays differ most over the distance
     /// `reach`: the first or not.
-    pub fn divide(&self, reach: f64) -> impl Fn(&Ray) -> bool {
+    pub fn divide<'a>(&self, reach: f64, rays: &'a Rays) -> impl Fn(&u32) -> bool + 'a {
         let differ = |ends: &[DVec3; 2], scale: f64| {
             let size = (ends[1] - ends[0]) * scale;
             let axis = size
@@ -114,14 +163,12 @@ impl Beam {
         };
         let origins = differ(&self.origins, 1.0);
         let directions = differ(&self.directions, reach);
-        let by_origin = origins.1 >= directions.1;
-        move |ray| {
-            if by_origin {
-                ray.origin[origins.0] < origins.2
-            } else {
-                ray.direction[directions.0] < directions.2
-            }
-        }
+        let (column, middle) = if origins.1 >= directions.1 {
+            (rays.origin()[origins.0], origins.2)
+        } else {
+            (rays.direction()[directions.0], directions.2)
+        };
+        move |number| column[*number as usize] < middle
     }
 
     /// How far apart the rays are at distance `t`: the radius of a cut through the beam.
@@ -159,8 +206,8 @@ impl Pace {
 mod tests {
     use super::*;
     use crate::num::samples::random;
-    use crate::trace::Footprint;
     use crate::trace::hierarchy::clip;
+    use crate::trace::{Footprint, Ray};
 
     fn rays(seed: u64) -> Vec<Ray> {
         let place = |k: u64| {
@@ -177,7 +224,15 @@ mod tests {
                 spread: 1e-3,
             },
         };
-        (0..32).map(ray).collect()
+        (0..45).map(ray).collect()
+    }
+
+    fn beam(rays: &[Ray]) -> Beam {
+        let numbers: Vec<u32> = (0..rays.len() as u32).collect();
+        let mut bundle = Bundle::new();
+        let level = Level::best();
+        bundle.fill(&rays.iter().collect(), &numbers, level);
+        Beam::around(&bundle, level)
     }
 
     #[test]
@@ -185,7 +240,7 @@ mod tests {
         let mut entered = 0;
         for seed in 0..2000u64 {
             let rays = rays(seed);
-            let beam = Beam::around(rays.iter());
+            let beam = beam(&rays);
             let x = |j: u64| 3.0 * random(seed * 31 + j) - 1.5;
             let bounds = Bounds::centred([0.5 * random(seed + 7); 3]).translate([x(1), x(2), x(3)]);
             for ray in &rays {
@@ -206,7 +261,7 @@ mod tests {
     fn balls_hold_the_rays() {
         for seed in 0..500u64 {
             let rays = rays(seed);
-            let beam = Beam::around(rays.iter());
+            let beam = beam(&rays);
             let from = 10.0 * random(seed + 1);
             let to = from + random(seed + 2);
             let (centre, radius) = beam.ball(from, to);

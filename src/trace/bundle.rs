@@ -1,10 +1,15 @@
 //! Bundles: up to 256 rays with what they found so far, side by side in arrays, so that lanes work on all of them.
 
-use super::Ray;
+#![allow(
+    clippy::needless_range_loop,
+    reason = "lanes run through many arrays side by side"
+)]
+
 use super::analytic::{ClosedForm, Crossing};
-use super::finding::Finding;
+use super::finding::{Finding, concluded, is_better};
+use super::{Rays, Verdict};
 use crate::catalogue::Bounds;
-use crate::field::Task;
+use crate::field::{Level, Task, run_at};
 use crate::num::F64x32;
 use glam::DVec3;
 
@@ -34,10 +39,19 @@ pub(super) struct Bundle {
     pub footprint: Column,
     /// By how much they grow with each scene unit.
     pub spread: Column,
-    /// What they found.
-    pub findings: [Finding; CAPACITY],
+    /// The nearest hits; infinitely far where there is none.
+    pub t: Column,
+    error: Column,
+    part: [u64; CAPACITY],
+    unknown: Column,
+    /// Steps taken.
+    pub steps: [u32; CAPACITY],
+    /// Evaluations of fields.
+    pub evaluations: [u32; CAPACITY],
     /// The gradients at their hits, not normalised; zero where they are still to be found.
     pub gradient: [Column; 3],
+    /// The places of their hits; zero where there is none.
+    pub point: [Column; 3],
     /// Where rays enter a box.
     pub enter: Column,
     /// Where they leave it; below the entry for those that miss it.
@@ -57,55 +71,199 @@ impl Bundle {
             t_max: column,
             footprint: column,
             spread: column,
-            findings: [Finding::NOTHING; CAPACITY],
+            t: column,
+            error: column,
+            part: [0; CAPACITY],
+            unknown: column,
+            steps: [0; CAPACITY],
+            evaluations: [0; CAPACITY],
             gradient: [column; 3],
+            point: [column; 3],
             enter: column,
             leave: column,
         })
     }
 
-    /// Takes the rays with these numbers, at most [`CAPACITY`], and forgets what was there.
-    pub fn fill(&mut self, rays: &[Ray], numbers: &[u32]) {
+    /// Takes the rays with these numbers, from 1 to [`CAPACITY`] of them, in order, and forgets what was there.
+    pub fn fill(&mut self, rays: &Rays, numbers: &[u32], level: Level) {
         self.count = numbers.len();
-        for (i, number) in numbers.iter().enumerate() {
-            let ray = &rays[*number as usize];
-            let inverse = ray.direction.recip();
-            for axis in 0..3 {
-                self.origin[axis][i] = ray.origin[axis];
-                self.direction[axis][i] = ray.direction[axis];
-                self.inverse[axis][i] = inverse[axis];
+        let n = self.lanes();
+        let run = run(numbers);
+        for (column, source) in self.columns_mut().into_iter().zip(rays.columns()) {
+            match &run {
+                Some(run) => column[..numbers.len()].copy_from_slice(&source[run.clone()]),
+                None => {
+                    for (i, number) in numbers.iter().enumerate() {
+                        column[i] = source[*number as usize];
+                    }
+                }
             }
-            self.t_max[i] = ray.t_max;
-            self.footprint[i] = ray.footprint.at_origin;
-            self.spread[i] = ray.footprint.spread;
+            // Lanes without a ray repeat the first.
+            let first = column[0];
+            column[numbers.len()..n].fill(first);
         }
-        let n = self.count.next_multiple_of(WIDTH);
-        self.limit[..self.count].copy_from_slice(&self.t_max[..numbers.len()]);
-        // Lanes without a ray take part in nothing.
+        run_at(level, Invert(self));
+        self.limit[..n].copy_from_slice(&self.t_max[..n]);
+        // They take part in nothing.
         self.limit[self.count..n].fill(-1.0);
-        self.findings[..n].fill(Finding::NOTHING);
+        self.t[..n].fill(f64::INFINITY);
+        self.error[..n].fill(0.0);
+        self.unknown[..n].fill(f64::INFINITY);
+        self.steps[..n].fill(0);
+        self.evaluations[..n].fill(0);
         for axis in &mut self.gradient {
             axis[..n].fill(0.0);
         }
     }
 
-    /// How far the farthest of the rays is still to be followed; negative where nothing is left to do.
-    pub fn farthest(&self) -> f64 {
-        self.limit[..self.count].iter().fold(-1.0, |a, b| a.max(*b))
+    /// How many lanes are in use: the rays, rounded up to whole packets.
+    #[inline(always)]
+    pub fn lanes(&self) -> usize {
+        self.count.next_multiple_of(WIDTH).min(CAPACITY)
+    }
+
+    fn columns_mut(&mut self) -> [&mut Column; Rays::COLUMNS] {
+        let ([a, b, c], [d, e, f]) = (&mut self.origin, &mut self.direction);
+        let (g, h, i) = (&mut self.t_max, &mut self.footprint, &mut self.spread);
+        [a, b, c, d, e, f, g, h, i]
+    }
+
+    /// What a ray found so far.
+    pub fn finding(&self, ray: usize) -> Finding {
+        Finding {
+            best: Crossing {
+                t: self.t[ray],
+                error: self.error[ray],
+            },
+            part: self.part(ray),
+            unknown: self.unknown[ray],
+            steps: self.steps[ray],
+            evaluations: self.evaluations[ray],
+        }
+    }
+
+    /// The part of the nearest hit of a ray.
+    pub fn part(&self, ray: usize) -> u32 {
+        self.part[ray] as u32
     }
 
     /// Offers a hit to a ray, as [`Finding::offer`]. With `any`, the ray is content with it.
     pub fn offer(&mut self, ray: usize, found: Crossing, part: u32, any: bool) -> bool {
-        let is_taken = self.findings[ray].offer(found, part);
+        let mut finding = self.finding(ray);
+        let is_taken = finding.offer(found, part);
         if is_taken {
+            (self.t[ray], self.error[ray], self.part[ray]) = (found.t, found.error, part.into());
             (0..3).for_each(|axis| self.gradient[axis][ray] = 0.0);
             self.limit[ray] = if any {
                 -1.0
             } else {
-                self.findings[ray].limit(self.t_max[ray])
+                finding.limit(self.t_max[ray])
             };
         }
         is_taken
+    }
+
+    /// A walk of a ray could not tell; up to `free` it could.
+    pub fn doubt(&mut self, ray: usize, free: f64) {
+        self.unknown[ray] = self.unknown[ray].min(free);
+    }
+}
+
+/// The range of numbers that follow one another; none if they don't. They are in order.
+pub(super) fn run(numbers: &[u32]) -> Option<std::ops::Range<usize>> {
+    let (first, last) = (*numbers.first()? as usize, *numbers.last()? as usize);
+    (last - first + 1 == numbers.len()).then_some(first..last + 1)
+}
+
+/// Finds the reciprocals of the directions.
+struct Invert<'a>(&'a mut Bundle);
+
+impl Task for Invert<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let b = self.0;
+        for axis in 0..3 {
+            for i in 0..b.lanes() {
+                b.inverse[axis][i] = 1.0 / b.direction[axis][i];
+            }
+        }
+    }
+}
+
+/// Finds how far the farthest of the rays is still to be followed; negative where nothing is left to do.
+pub(super) struct Farthest<'a>(pub &'a Bundle);
+
+impl Task for Farthest<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        let mut most = [-1.0f64; WIDTH];
+        for limits in self.0.limit[..self.0.lanes()].chunks_exact(WIDTH) {
+            for lane in 0..WIDTH {
+                most[lane] = larger(limits[lane], most[lane]);
+            }
+        }
+        across(most, larger)
+    }
+}
+
+/// The larger of two numbers; the second if one is none.
+#[inline(always)]
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// The lesser of two numbers; the second if one is none.
+#[inline(always)]
+pub(super) fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// What `join` makes of all lanes, half of them with the other half.
+#[inline(always)]
+pub(super) fn across(mut lanes: [f64; WIDTH], join: impl Fn(f64, f64) -> f64) -> f64 {
+    let mut half = WIDTH / 2;
+    while half > 0 {
+        for lane in 0..half {
+            lanes[lane] = join(lanes[lane], lanes[lane + half]);
+        }
+        half /= 2;
+    }
+    lanes[0]
+}
+
+/// Draws the conclusions of all rays: verdicts, with distances in `enter`, errors in `leave`, places in `point`, and normals
+/// in `gradient`, zero where they are still to be found.
+pub(super) struct Conclude<'a>(pub &'a mut Bundle);
+
+impl Task for Conclude<'_> {
+    type Output = [Verdict; CAPACITY];
+
+    #[inline(always)]
+    fn run(self) -> [Verdict; CAPACITY] {
+        let b = self.0;
+        let mut verdicts = [Verdict::Miss; CAPACITY];
+        for i in 0..b.lanes() {
+            let best = Crossing {
+                t: b.t[i],
+                error: b.error[i],
+            };
+            (verdicts[i], b.enter[i], b.leave[i]) = concluded(best, b.unknown[i]);
+            let [x, y, z] = [b.gradient[0][i], b.gradient[1][i], b.gradient[2][i]];
+            let scale = 1.0 / (x * x + y * y + z * z).sqrt();
+            let is_hit = verdicts[i] == Verdict::Hit;
+            let is_scale = is_hit & (scale > 0.0) & (scale < f64::INFINITY);
+            for axis in 0..3 {
+                let unit = b.gradient[axis][i] * scale;
+                b.gradient[axis][i] = if is_scale { unit } else { 0.0 };
+                let place = b.origin[axis][i] + b.direction[axis][i] * b.enter[i];
+                b.point[axis][i] = if is_hit { place } else { 0.0 };
+            }
+        }
+        verdicts
     }
 }
 
@@ -123,8 +281,7 @@ impl Task for Clip<'_> {
     #[inline(always)]
     fn run(self) {
         let b = self.bundle;
-        let n = b.count.next_multiple_of(WIDTH);
-        for i in 0..n.min(CAPACITY) {
+        for i in 0..b.lanes() {
             let (mut enter, mut leave) = (0.0f64, b.limit[i]);
             for axis in 0..3 {
                 let (o, inverse) = (b.origin[axis][i], b.inverse[axis][i]);
@@ -147,22 +304,27 @@ impl Task for Clip<'_> {
     }
 }
 
-/// Asks where the rays of a bundle enter a surface.
+/// Asks where the rays of a bundle enter a surface, and takes that as hits.
 pub(super) struct Enter<'a, F> {
-    /// The rays; the entries are written to `enter`, the errors to `leave`.
+    /// The rays.
     pub bundle: &'a mut Bundle,
     /// The surface.
     pub form: &'a F,
+    /// The part that it is.
+    pub number: u32,
+    /// Whether the rays are content with any hit.
+    pub any: bool,
 }
 
 impl<F: ClosedForm> Task for Enter<'_, F> {
-    /// Whether any ray may meet the surface; if not, nothing was written.
+    /// Whether any hit is new.
     type Output = bool;
 
+    /// As [`Bundle::offer`] for each ray.
     #[inline(always)]
     fn run(self) -> bool {
         let b = self.bundle;
-        let n = b.count.next_multiple_of(WIDTH).min(CAPACITY);
+        let n = b.lanes();
         let mut is_met = false;
         for i in 0..n {
             let (o, d) = (place(&b.origin, i), place(&b.direction, i));
@@ -171,18 +333,37 @@ impl<F: ClosedForm> Task for Enter<'_, F> {
         if !is_met {
             return false;
         }
+        let number = u64::from(self.number);
+        let mut taken = 0;
         for i in 0..n {
             let (o, d) = (place(&b.origin, i), place(&b.direction, i));
             let (t, error) = self.form.crossing(o, d);
-            b.enter[i] = if t <= b.limit[i] { t } else { f64::INFINITY };
-            b.leave[i] = error;
+            let (found, best) = (
+                Crossing { t, error },
+                Crossing {
+                    t: b.t[i],
+                    error: b.error[i],
+                },
+            );
+            let is_taken = (t <= b.limit[i]) & is_better(found, number, best, b.part[i]);
+            taken += u64::from(is_taken);
+            b.t[i] = if is_taken { t } else { b.t[i] };
+            b.error[i] = if is_taken { error } else { b.error[i] };
+            b.part[i] = if is_taken { number } else { b.part[i] };
+            for axis in 0..3 {
+                b.gradient[axis][i] = if is_taken { 0.0 } else { b.gradient[axis][i] };
+            }
+            let end = t + error;
+            let end = if end < b.t_max[i] { end } else { b.t_max[i] };
+            let end = if self.any { -1.0 } else { end };
+            b.limit[i] = if is_taken { end } else { b.limit[i] };
         }
-        true
+        taken > 0
     }
 }
 
 /// The place of a ray.
 #[inline(always)]
-fn place(columns: &[Column; 3], i: usize) -> DVec3 {
+pub(super) fn place(columns: &[Column; 3], i: usize) -> DVec3 {
     DVec3::new(columns[0][i], columns[1][i], columns[2][i])
 }

@@ -37,7 +37,7 @@ impl Task for Gradient<'_> {
         let mut places = [[0.0; WIDTH]; 3];
         for lane in 0..WIDTH {
             let ray = rays[if lane < rays.len() { lane } else { 0 }] as usize;
-            let t = bundle.findings[ray].best.map_or(0.0, |(best, _)| best.t);
+            let t = bundle.t[ray];
             for axis in 0..3 {
                 let (o, d) = (bundle.origin[axis][ray], bundle.direction[axis][ray]);
                 places[axis][lane] = o + d * t;

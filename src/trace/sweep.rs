@@ -6,7 +6,7 @@
 
 use super::analytic::{ClosedForm, Crossing};
 use super::beam::Beam;
-use super::bundle::{Bundle, CAPACITY, Clip, Enter, WIDTH};
+use super::bundle::{Bundle, CAPACITY, Clip, Enter, Farthest, WIDTH};
 use super::inclines::{Derivatives, Gradient};
 use super::newton::Newton;
 use super::packet::{Found, Packet, Rules};
@@ -14,7 +14,7 @@ use super::part::{Marched, Part, PartKind};
 use super::stages::{Stage, stages};
 use super::stride::Stride;
 use super::world::World;
-use super::{Ray, Verdict};
+use super::{Rays, Verdict};
 use crate::catalogue::Bounds;
 use crate::field::{Thinned, run_at};
 use std::cell::Cell;
@@ -73,9 +73,9 @@ impl World {
     /// Asks `question` of all rays; `answer` is given each bundle, with the numbers of the rays in it.
     pub(super) fn sweep(
         &self,
-        rays: &[Ray],
+        rays: &Rays,
         question: &Question,
-        answer: &mut dyn FnMut(&Bundle, &[u32]),
+        answer: &mut dyn FnMut(&mut Bundle, &[u32]),
     ) {
         let scratch = SCRATCH.with(Cell::take);
         let mut scratch = scratch.unwrap_or_else(|| {
@@ -98,16 +98,16 @@ impl World {
     /// The sweep of the rays with these numbers, which can meet only the parts `known`, if these are given.
     fn sweep_bundle(
         &self,
-        rays: &[Ray],
+        rays: &Rays,
         numbers: &mut [u32],
         known: Option<&[(f64, u32)]>,
         question: &Question,
         scratch: &mut Scratch,
-        answer: &mut dyn FnMut(&Bundle, &[u32]),
+        answer: &mut dyn FnMut(&mut Bundle, &[u32]),
     ) {
-        let some = numbers.iter().map(|number| &rays[*number as usize]);
-        let beam = Beam::around(some.clone());
-        let limit = some.fold(0.0, |a: f64, ray| a.max(ray.t_max));
+        scratch.bundle.fill(rays, numbers, self.level);
+        let beam = Beam::around(&scratch.bundle, self.level);
+        let limit = self.farthest(&scratch.bundle);
         match known {
             Some(known) => {
                 let still = |(_, number): &(f64, u32)| {
@@ -120,9 +120,9 @@ impl World {
             None => self.meet(&beam, limit, question, &mut scratch.candidates),
         }
         if self.is_crowd(&beam, numbers.len(), &scratch.candidates) {
-            let is_first = beam.divide(self.horizon);
-            numbers.sort_by_key(|number| !is_first(&rays[*number as usize]));
-            let half = numbers.partition_point(|number| is_first(&rays[*number as usize]));
+            let is_first = beam.divide(self.horizon, rays);
+            numbers.sort_by_key(|number| !is_first(number));
+            let half = numbers.partition_point(&is_first);
             if half > 0 && half < numbers.len() {
                 let (first, second) = numbers.split_at_mut(half);
                 // What the halves meet is among few parts; of many, the hierarchy finds it sooner.
@@ -137,18 +137,17 @@ impl World {
         scratch
             .candidates
             .sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        scratch.bundle.fill(rays, numbers);
-        let mut farthest = scratch.bundle.farthest();
+        let mut farthest = limit;
         for k in 0..scratch.candidates.len() {
             let (enter, number) = scratch.candidates[k];
             if enter > farthest {
                 break;
             }
             if self.ask(number, &beam, question.any, scratch) {
-                farthest = scratch.bundle.farthest();
+                farthest = self.farthest(&scratch.bundle);
             }
         }
-        answer(&scratch.bundle, numbers);
+        answer(&mut scratch.bundle, numbers);
     }
 
     /// Whether a beam of `rays` rays should be divided before it is asked of these parts.
@@ -210,20 +209,18 @@ impl World {
 
     /// Takes where the rays enter a surface in closed form as hits; gives whether any is new.
     fn enter<F: ClosedForm>(&self, form: &F, number: u32, any: bool, bundle: &mut Bundle) -> bool {
-        if !run_at(self.level, Enter { bundle, form }) {
-            return false;
-        }
-        let mut is_hit = false;
-        for ray in 0..bundle.count {
-            if bundle.enter[ray] < f64::INFINITY {
-                let found = Crossing {
-                    t: bundle.enter[ray],
-                    error: bundle.leave[ray],
-                };
-                is_hit |= bundle.offer(ray, found, number, any);
-            }
-        }
-        is_hit
+        let task = Enter {
+            bundle,
+            form,
+            number,
+            any,
+        };
+        run_at(self.level, task)
+    }
+
+    /// How far the farthest ray of a bundle is still to be followed.
+    fn farthest(&self, bundle: &Bundle) -> f64 {
+        run_at(self.level, Farthest(bundle))
     }
 
     /// Walks the rays that come into the region of a part through its field.
@@ -284,8 +281,8 @@ impl World {
         for packet in &mut scratch.packets[..packets] {
             for lane in 0..packet.count {
                 let ray = packet.ray[lane] as usize;
-                scratch.bundle.findings[ray].steps += packet.steps[lane] as u32;
-                scratch.bundle.findings[ray].evaluations += packet.evaluations[lane] as u32;
+                scratch.bundle.steps[ray] += packet.steps[lane] as u32;
+                scratch.bundle.evaluations[ray] += packet.evaluations[lane] as u32;
             }
         }
         is_hit
@@ -381,8 +378,8 @@ impl World {
         let mut is_hit = false;
         for Found { lane, ending } in found.drain(..) {
             let ray = packet.ray[lane] as usize;
-            bundle.findings[ray].steps += packet.steps[lane] as u32;
-            bundle.findings[ray].evaluations += packet.evaluations[lane] as u32;
+            bundle.steps[ray] += packet.steps[lane] as u32;
+            bundle.evaluations[ray] += packet.evaluations[lane] as u32;
             (packet.steps[lane], packet.evaluations[lane]) = (0, 0);
             match ending.verdict {
                 Verdict::Hit => {
@@ -396,7 +393,7 @@ impl World {
                     }
                 }
                 Verdict::Miss => {}
-                Verdict::Unknown => bundle.findings[ray].doubt(ending.t),
+                Verdict::Unknown => bundle.doubt(ray, ending.t),
             }
         }
         is_hit

@@ -1,6 +1,7 @@
 //! The world: a scene that is ready to be traced.
 
 use super::analytic::Crossing;
+use super::bundle::{Bundle, Conclude, place, run};
 use super::finding::Finding;
 use super::hierarchy::{Hierarchy, clip, stretch};
 use super::join::joined;
@@ -12,9 +13,9 @@ use super::method::{
 use super::part::{Marched, Part, PartKind, flatten};
 use super::survey::{resolved, survey};
 use super::sweep::Question;
-use super::{Occlusion, Outcome, Ray, Verdict};
+use super::{Occlusion, Outcome, Outcomes, Ray, Rays, Verdict};
 use crate::catalogue::Bounds;
-use crate::field::{Level, normal, shares};
+use crate::field::{Level, normal, run_at, shares};
 use crate::scene::{Fault, Material, Method, Node, Scene, Settings, Shadow};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -142,31 +143,49 @@ impl World {
 
     /// The first surface on each ray.
     pub fn nearest(&self, rays: &[Ray], visibility: Visibility) -> Vec<Outcome> {
+        self.trace(&rays.iter().collect(), visibility)
+            .iter()
+            .collect()
+    }
+
+    /// As [`World::nearest`], for rays side by side.
+    pub fn trace(&self, rays: &Rays, visibility: Visibility) -> Outcomes {
         let is_seen = |part: &Part| visibility == Visibility::All || part.shadow != Shadow::None;
         if self.settings.method == Method::Auto {
-            let mut outcomes = vec![Outcome::NOTHING; rays.len()];
+            let mut outcomes = Outcomes::nothing(rays.len());
             let question = Question {
                 is_seen: &is_seen,
                 any: false,
             };
             self.sweep(rays, &question, &mut |bundle, numbers| {
-                for (i, number) in numbers.iter().enumerate() {
-                    let number = *number as usize;
-                    let gradient = [0, 1, 2].map(|axis| bundle.gradient[axis][i]);
-                    outcomes[number] = self.outcome(&rays[number], &bundle.findings[i], gradient);
-                }
+                self.conclude(rays, bundle, numbers, &mut outcomes);
             });
             return outcomes;
         }
-        let searches = self.search(rays, &is_seen, false);
+        let rays: Vec<Ray> = rays.iter().collect();
+        let searches = self.search(&rays, &is_seen, false);
         rays.iter()
             .zip(&searches)
-            .map(|(ray, search)| self.outcome(ray, &search.finding, [0.0; 3]))
+            .map(|(ray, search)| {
+                let outcome = search.finding.outcome(ray);
+                let is_hit = outcome.verdict == Verdict::Hit;
+                let normal = if is_hit {
+                    self.normal(&outcome, ray)
+                } else {
+                    outcome.normal
+                };
+                Outcome { normal, ..outcome }
+            })
             .collect()
     }
 
     /// Whether any opaque surface lies on each ray; parts whose shadow is tinted or none are passed over.
     pub fn occluded(&self, rays: &[Ray]) -> Vec<Occlusion> {
+        self.occlusions(&rays.iter().collect())
+    }
+
+    /// As [`World::occluded`], for rays side by side.
+    pub fn occlusions(&self, rays: &Rays) -> Vec<Occlusion> {
         if self.settings.method == Method::Auto {
             let mut occlusions = vec![Finding::NOTHING.occlusion(); rays.len()];
             let question = Question {
@@ -175,12 +194,13 @@ impl World {
             };
             self.sweep(rays, &question, &mut |bundle, numbers| {
                 for (i, number) in numbers.iter().enumerate() {
-                    occlusions[*number as usize] = bundle.findings[i].occlusion();
+                    occlusions[*number as usize] = bundle.finding(i).occlusion();
                 }
             });
             return occlusions;
         }
-        let searches = self.search(rays, &|part: &Part| part.shadow == Shadow::Opaque, true);
+        let rays: Vec<Ray> = rays.iter().collect();
+        let searches = self.search(&rays, &|part: &Part| part.shadow == Shadow::Opaque, true);
         searches
             .iter()
             .map(|search| search.finding.occlusion())
@@ -293,7 +313,7 @@ impl World {
 
     /// The next part that a ray has to be marched through, and where.
     fn next_walk(&self, ray: &Ray, search: &mut Search, any: bool) -> Option<(u32, Segment)> {
-        if any && search.finding.best.is_some() {
+        if any && search.finding.is_hit() {
             return None;
         }
         let limit = search.finding.limit(ray.t_max);
@@ -359,27 +379,64 @@ impl World {
         }
     }
 
-    /// The outcome of a ray, with its normal: the direction of the `gradient` at its hit, where that is not zero.
-    fn outcome(&self, ray: &Ray, finding: &Finding, gradient: [f64; 3]) -> Outcome {
-        let mut outcome = finding.outcome(ray);
-        if outcome.verdict == Verdict::Hit {
-            let direction = DVec3::from_array(gradient).try_normalize();
-            outcome.normal = direction.unwrap_or_else(|| self.normal(&outcome, ray));
+    /// Puts down what the rays of a bundle, with these numbers, found. Their normals are the directions of the gradients at
+    /// their hits, where these are known and not zero.
+    fn conclude(&self, rays: &Rays, bundle: &mut Bundle, numbers: &[u32], outcomes: &mut Outcomes) {
+        let verdicts = run_at(self.level, Conclude(bundle));
+        let n = numbers.len();
+        put(&mut outcomes.verdict, numbers, &verdicts[..n]);
+        put(&mut outcomes.steps, numbers, &bundle.steps[..n]);
+        put(&mut outcomes.evaluations, numbers, &bundle.evaluations[..n]);
+        let [t, error, point @ .., x, y, z] = outcomes.columns_mut();
+        put(t, numbers, &bundle.enter[..n]);
+        put(error, numbers, &bundle.leave[..n]);
+        if verdicts[..n].iter().all(|verdict| *verdict != Verdict::Hit) {
+            return;
         }
-        outcome
+        for (column, axis) in [x, y, z].into_iter().zip(&bundle.gradient) {
+            put(column, numbers, &axis[..n]);
+        }
+        for (column, axis) in point.into_iter().zip(&bundle.point) {
+            put(column, numbers, &axis[..n]);
+        }
+        for (i, number) in numbers.iter().enumerate() {
+            if verdicts[i] != Verdict::Hit {
+                continue;
+            }
+            let number = *number as usize;
+            outcomes.part[number] = bundle.part(i);
+            if (0..3).all(|axis| bundle.gradient[axis][i] == 0.0) {
+                let closed = self.parts[bundle.part(i) as usize]
+                    .kind
+                    .normal(place(&bundle.point, i));
+                let normal =
+                    closed.unwrap_or_else(|| self.normal(&outcomes.at(number), &rays.at(number)));
+                let [.., x, y, z] = outcomes.columns_mut();
+                [x[number], y[number], z[number]] = normal.to_array();
+            }
+        }
     }
 
     /// The normal of the part that `ray` hit.
     fn normal(&self, hit: &Outcome, ray: &Ray) -> DVec3 {
         match &self.parts[hit.part as usize].kind {
-            PartKind::Ball(ball) => ball.normal(hit.point),
-            PartKind::HalfSpace(plane) => plane.normal,
-            PartKind::Block(block) => block.normal(hit.point),
-            PartKind::Facet(facet) => facet.normal,
             PartKind::Marched(marched) => {
                 let pixel = self.settings.tolerance * ray.footprint.at(hit.t);
                 let back = hit.error.max(pixel);
                 normal(marched.gradient(), hit.point, ray.direction, back)
+            }
+            closed => closed.normal(hit.point).unwrap_or(DVec3::ZERO),
+        }
+    }
+}
+
+/// Puts the numbers of some rays in their places.
+fn put<T: Copy>(column: &mut [T], numbers: &[u32], values: &[T]) {
+    match run(numbers) {
+        Some(run) => column[run].copy_from_slice(values),
+        None => {
+            for (number, value) in numbers.iter().zip(values) {
+                column[*number as usize] = *value;
             }
         }
     }

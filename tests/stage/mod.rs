@@ -2,7 +2,9 @@
 
 use fieldstone::scene::{Light, Material, Scene, Shadow, Sky, Term};
 use fieldstone::shade::{Census, Surfaces, Whitted};
-use fieldstone::trace::{Footprint, Occlusion, Outcome, Paint, Ray, Verdict, Visibility};
+use fieldstone::trace::{
+    Footprint, Occlusion, Outcome, Outcomes, Paint, Ray, Rays, Verdict, Visibility,
+};
 use glam::DVec3;
 use std::sync::{Arc, Mutex};
 
@@ -113,17 +115,17 @@ impl Stage {
 }
 
 impl Surfaces for Stage {
-    fn nearest(&self, rays: &[Ray], visibility: Visibility) -> Vec<Outcome> {
-        self.traced.lock().unwrap().push(rays.to_vec());
+    fn nearest(&self, rays: &Rays, visibility: Visibility) -> Outcomes {
+        self.traced.lock().unwrap().push(rays.iter().collect());
         let is_seen = |m: &Material| visibility == Visibility::All || m.shadow != Shadow::None;
-        rays.iter().map(|ray| self.find(ray, is_seen)).collect()
+        rays.iter().map(|ray| self.find(&ray, is_seen)).collect()
     }
 
-    fn occluded(&self, rays: &[Ray]) -> Vec<Occlusion> {
-        self.shadow_rays.lock().unwrap().extend(rays);
+    fn occluded(&self, rays: &Rays) -> Vec<Occlusion> {
+        self.shadow_rays.lock().unwrap().extend(rays.iter());
         rays.iter()
             .map(|ray| Occlusion {
-                verdict: self.find(ray, |m| m.shadow == Shadow::Opaque).verdict,
+                verdict: self.find(&ray, |m| m.shadow == Shadow::Opaque).verdict,
                 steps: 1,
                 evaluations: 1,
             })
@@ -160,8 +162,9 @@ pub fn ray(origin: DVec3, direction: DVec3) -> Ray {
 pub fn see(scene: &Scene, stage: &Stage, ray: Ray) -> (DVec3, Census) {
     let mut census = Census::default();
     let whitted = Whitted::new(scene, stage);
-    let outcomes = whitted.first_hits(&[ray], &mut census);
-    let light = whitted.light(&[ray], &outcomes, &mut census);
+    let rays = Rays::from_iter([ray]);
+    let outcomes = whitted.first_hits(&rays, &mut census);
+    let light = whitted.light(&rays, &outcomes, &mut census);
     (light.radiance[0], census)
 }
 

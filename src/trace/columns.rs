@@ -1,0 +1,127 @@
+//! Tables of numbers, column by column in one piece of memory.
+
+use std::array;
+
+/// `N` columns of one length.
+#[derive(Clone, Debug)]
+pub(super) struct Columns<const N: usize> {
+    /// The columns one after the other, each with the room that all of them have.
+    numbers: Vec<f64>,
+    room: usize,
+    rows: usize,
+}
+
+impl<const N: usize> Columns<N> {
+    /// No rows, with room for as many.
+    pub fn with_capacity(rows: usize) -> Self {
+        let room = rows.max(1);
+        Self {
+            numbers: vec![0.0; N * room],
+            room,
+            rows: 0,
+        }
+    }
+
+    /// As many rows of zeros.
+    pub fn zeros(rows: usize) -> Self {
+        Self {
+            rows,
+            ..Self::with_capacity(rows)
+        }
+    }
+
+    pub fn len(&self) -> usize {
+        self.rows
+    }
+
+    #[inline(always)]
+    pub fn column(&self, k: usize) -> &[f64] {
+        &self.numbers[k * self.room..][..self.rows]
+    }
+
+    pub fn column_mut(&mut self, k: usize) -> &mut [f64] {
+        &mut self.numbers[k * self.room..][..self.rows]
+    }
+
+    /// Row number `i`.
+    #[inline]
+    pub fn row(&self, i: usize) -> [f64; N] {
+        assert!(i < self.rows, "there are so many rows");
+        array::from_fn(|k| self.numbers[k * self.room + i])
+    }
+
+    pub fn columns(&self) -> [&[f64]; N] {
+        array::from_fn(|k| self.column(k))
+    }
+
+    pub fn columns_mut(&mut self) -> [&mut [f64]; N] {
+        let rows = self.rows;
+        let mut columns = self.numbers.chunks_exact_mut(self.room);
+        array::from_fn(|_| columns.next().map_or(&mut [][..], |c| &mut c[..rows]))
+    }
+
+    /// Adds a row.
+    pub fn push(&mut self, row: [f64; N]) {
+        self.grow(1);
+        for (k, number) in row.into_iter().enumerate() {
+            self.numbers[k * self.room + self.rows - 1] = number;
+        }
+    }
+
+    /// Adds these rows of other columns.
+    pub fn pick(&mut self, columns: [&[f64]; N], rows: &[u32]) {
+        let first = self.rows;
+        self.grow(rows.len());
+        for (target, source) in self.columns_mut().into_iter().zip(columns) {
+            for (number, row) in target[first..].iter_mut().zip(rows) {
+                *number = source[*row as usize];
+            }
+        }
+    }
+
+    /// Adds rows of zeros, or of whatever was there.
+    fn grow(&mut self, more: usize) {
+        let rows = self.rows + more;
+        if rows > self.room {
+            let mut larger = Self::with_capacity(rows.max(2 * self.room).max(16));
+            larger.rows = self.rows;
+            for (target, source) in larger.columns_mut().into_iter().zip(self.columns()) {
+                target.copy_from_slice(source);
+            }
+            *self = larger;
+        }
+        self.rows = rows;
+    }
+}
+
+impl<const N: usize> Default for Columns<N> {
+    fn default() -> Self {
+        Self::with_capacity(0)
+    }
+}
+
+impl<const N: usize> PartialEq for Columns<N> {
+    fn eq(&self, other: &Self) -> bool {
+        self.columns() == other.columns()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_stay_together_while_columns_grow() {
+        let mut columns = Columns::<3>::default();
+        let row = |i: usize| [0.0, 1.0, 2.0].map(|k| 10.0 * i as f64 + k);
+        (0..100).for_each(|i| columns.push(row(i)));
+        let mut some = Columns::<3>::with_capacity(1);
+        some.pick(columns.columns(), &[7, 99, 3]);
+        some.pick(columns.columns(), &[50]);
+        for (place, i) in [7, 99, 3, 50].into_iter().enumerate() {
+            let found: [f64; 3] = array::from_fn(|k| some.column(k)[place]);
+            assert_eq!(found, row(i));
+        }
+        assert_eq!((columns.len(), some.len()), (100, 4));
+    }
+}

@@ -1,0 +1,229 @@
+//! Rays and what they found, side by side in columns, so that lanes work on many of them.
+
+use super::columns::Columns;
+use super::{Footprint, Outcome, Ray, Verdict};
+use glam::DVec3;
+
+/// Rays side by side: the numbers of [`Ray`], in columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Rays(Columns<{ Rays::COLUMNS }>);
+
+impl Rays {
+    /// How many columns there are: origins and directions by axis, how far the rays are followed, the widths of their
+    /// pixels at the origins, and by how much these grow with each scene unit.
+    pub const COLUMNS: usize = 9;
+
+    /// As many rays of zeros.
+    pub fn zeros(count: usize) -> Self {
+        Self(Columns::zeros(count))
+    }
+
+    /// None yet, with room for as many.
+    pub fn with_capacity(count: usize) -> Self {
+        Self(Columns::with_capacity(count))
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Where they start, by axis.
+    #[inline(always)]
+    pub fn origin(&self) -> [&[f64]; 3] {
+        [0, 1, 2].map(|k| self.0.column(k))
+    }
+
+    /// Where they go, each of length 1, by axis.
+    #[inline(always)]
+    pub fn direction(&self) -> [&[f64]; 3] {
+        [3, 4, 5].map(|k| self.0.column(k))
+    }
+
+    /// How far they are followed, in scene units; may be infinite.
+    pub fn t_max_mut(&mut self) -> &mut [f64] {
+        self.0.column_mut(6)
+    }
+
+    /// How wide the pixels are: at the origins, and by how much that grows, in scene units.
+    #[inline(always)]
+    pub fn footprint(&self) -> [&[f64]; 2] {
+        [7, 8].map(|k| self.0.column(k))
+    }
+
+    /// Ray number `i`.
+    ///
+    /// # Panics
+    /// If there are fewer.
+    pub fn at(&self, i: usize) -> Ray {
+        let [a, b, c, d, e, f, t_max, at_origin, spread] = self.0.row(i);
+        Ray {
+            origin: DVec3::new(a, b, c),
+            direction: DVec3::new(d, e, f),
+            t_max,
+            footprint: Footprint { at_origin, spread },
+        }
+    }
+
+    /// All of them, in order.
+    pub fn iter(&self) -> impl Iterator<Item = Ray> {
+        (0..self.len()).map(|i| self.at(i))
+    }
+
+    /// Adds a ray.
+    pub fn push(&mut self, ray: &Ray) {
+        let (o, d, footprint) = (ray.origin, ray.direction, ray.footprint);
+        let widths = [footprint.at_origin, footprint.spread];
+        self.0.push([
+            o.x, o.y, o.z, d.x, d.y, d.z, ray.t_max, widths[0], widths[1],
+        ]);
+    }
+
+    /// Adds rays of other columns, by number.
+    ///
+    /// # Panics
+    /// If a column is too short.
+    pub fn pick(&mut self, columns: [&[f64]; Self::COLUMNS], numbers: &[u32]) {
+        self.0.pick(columns, numbers);
+    }
+
+    /// All columns.
+    pub fn columns(&self) -> [&[f64]; Self::COLUMNS] {
+        self.0.columns()
+    }
+
+    /// All columns, to be written.
+    pub fn columns_mut(&mut self) -> [&mut [f64]; Self::COLUMNS] {
+        self.0.columns_mut()
+    }
+}
+
+impl<'a> FromIterator<&'a Ray> for Rays {
+    fn from_iter<I: IntoIterator<Item = &'a Ray>>(rays: I) -> Self {
+        let mut all = Self::default();
+        rays.into_iter().for_each(|ray| all.push(ray));
+        all
+    }
+}
+
+impl FromIterator<Ray> for Rays {
+    fn from_iter<I: IntoIterator<Item = Ray>>(rays: I) -> Self {
+        let mut all = Self::default();
+        rays.into_iter().for_each(|ray| all.push(&ray));
+        all
+    }
+}
+
+/// What rays found, side by side: the numbers of [`Outcome`], in columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outcomes {
+    /// How certain they are.
+    pub verdict: Vec<Verdict>,
+    /// The parts that were hit, by number.
+    pub part: Vec<u32>,
+    /// How many steps were taken.
+    pub steps: Vec<u32>,
+    /// How many times a field was evaluated.
+    pub evaluations: Vec<u32>,
+    /// Distances, errors, places and normals.
+    numbers: Columns<8>,
+}
+
+impl Outcomes {
+    /// As many times [`Outcome::NOTHING`].
+    pub fn nothing(count: usize) -> Self {
+        let nothing = Outcome::NOTHING;
+        let mut numbers = Columns::zeros(count);
+        numbers.column_mut(0).fill(nothing.t);
+        Self {
+            verdict: vec![nothing.verdict; count],
+            part: vec![nothing.part; count],
+            steps: vec![nothing.steps; count],
+            evaluations: vec![nothing.evaluations; count],
+            numbers,
+        }
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.verdict.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.verdict.is_empty()
+    }
+
+    /// The distances along the rays.
+    #[inline(always)]
+    pub fn t(&self) -> &[f64] {
+        self.numbers.column(0)
+    }
+
+    /// Bounds of their errors.
+    #[inline(always)]
+    pub fn error(&self) -> &[f64] {
+        self.numbers.column(1)
+    }
+
+    /// Where they hit, by axis.
+    #[inline(always)]
+    pub fn point(&self) -> [&[f64]; 3] {
+        [2, 3, 4].map(|k| self.numbers.column(k))
+    }
+
+    /// The outward unit normals, by axis.
+    #[inline(always)]
+    pub fn normal(&self) -> [&[f64]; 3] {
+        [5, 6, 7].map(|k| self.numbers.column(k))
+    }
+
+    /// Distances, errors, places and normals, to be written.
+    pub(super) fn columns_mut(&mut self) -> [&mut [f64]; 8] {
+        self.numbers.columns_mut()
+    }
+
+    /// What ray number `i` found.
+    ///
+    /// # Panics
+    /// If there are fewer.
+    pub fn at(&self, i: usize) -> Outcome {
+        let [t, error, a, b, c, d, e, f] = self.numbers.row(i);
+        Outcome {
+            verdict: self.verdict[i],
+            t,
+            error,
+            point: DVec3::new(a, b, c),
+            normal: DVec3::new(d, e, f),
+            part: self.part[i],
+            steps: self.steps[i],
+            evaluations: self.evaluations[i],
+        }
+    }
+
+    /// All of them, in order.
+    pub fn iter(&self) -> impl Iterator<Item = Outcome> {
+        (0..self.len()).map(|i| self.at(i))
+    }
+}
+
+impl FromIterator<Outcome> for Outcomes {
+    fn from_iter<I: IntoIterator<Item = Outcome>>(outcomes: I) -> Self {
+        let mut all = Self::default();
+        for outcome in outcomes {
+            let (p, n) = (outcome.point, outcome.normal);
+            let row = [outcome.t, outcome.error, p.x, p.y, p.z, n.x, n.y, n.z];
+            all.numbers.push(row);
+            all.verdict.push(outcome.verdict);
+            all.part.push(outcome.part);
+            all.steps.push(outcome.steps);
+            all.evaluations.push(outcome.evaluations);
+        }
+        all
+    }
+}

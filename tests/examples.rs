@@ -3,6 +3,7 @@
 mod pictures;
 
 use fieldstone::lang::{Loaded, load, load_text};
+use fieldstone::render::CameraTracer;
 use fieldstone::trace::SceneTracer;
 use image::RgbImage;
 use image::imageops::{FilterType, resize};
@@ -51,7 +52,7 @@ fn scripts_load_without_a_warning_and_pass_their_tests() {
     for path in scripts() {
         let loaded = loaded(&path);
         assert!(loaded.warnings.is_empty(), "{}", loaded.warnings);
-        for result in loaded.run_tests(&SceneTracer::default()) {
+        for result in loaded.run_tests(&CameraTracer::default()) {
             assert!(result.passed(), "{}: {}", path.display(), result.name);
         }
     }
@@ -205,7 +206,7 @@ fn the_readme_shows_what_the_program_does() {
         .collect();
     let loaded = load_text("taste.sdf", &taste, &[], &SceneTracer::default());
     assert!(loaded.as_ref().is_ok_and(|l| {
-        l.run_tests(&SceneTracer::default())
+        l.run_tests(&CameraTracer::default())
             .iter()
             .all(|r| r.passed())
     }));

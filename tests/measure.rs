@@ -463,3 +463,109 @@ fn budgets_of_steps_are_held_or_the_command_fails() {
     );
     steps("median=3", 2);
 }
+
+/// Straight down on a floor from height 2, the first step lands on it and the second look ends the walk.
+const PLUMB: &str = "\
+    show plane(\"y\", 0)\n\
+    camera { eye: [0, 2, 0], at: [0, 0, 0], up: [0, 0, 1], projection: \"orthographic\" }\n\
+    render { size: [24, 18], method: \"sphere\" }\n";
+
+#[test]
+fn steps_of_the_camera_in_tests() {
+    let folder = Folder::new("camera-steps");
+    let tests = "\
+        test \"two looks\" {\n\
+          expect steps(mean) == 2\n\
+          expect steps(p99) == 2 and steps(max) == 2\n\
+        }\n\
+        test \"a ray\" {\n\
+          let r = trace([1, 3, 1], [0, -2, 0])\n\
+          expect r.steps == 2 and r.evaluations == 2 and r.t == 3 and r.verdict == \"hit\" and r.hit\n\
+          expect r.point == [1, 0, 1] and r.normal == [0, 1, 0]\n\
+          let up = trace([1, 3, 1], [0, 1, 0])\n\
+          expect up.verdict == \"miss\" and up.t == infinity and not up.hit\n\
+        }\n\
+        budget { mean_steps: 2, p99_steps: 2, max_steps: 2, mean_evaluations: 2, unknown: 0 }\n";
+    std::fs::write(folder.0.join("plumb.sdf"), format!("{PLUMB}{tests}")).unwrap();
+    let [answer, _] = folder.run(&["test", "plumb.sdf"], 0);
+    assert!(
+        answer.ends_with("test \"budget\" ... ok\n3 passed, 0 failed\n"),
+        "{answer}"
+    );
+}
+
+#[test]
+fn a_budget_that_is_exceeded_says_what_was_reached_and_where() {
+    let folder = Folder::new("camera-budget");
+    // Each step to the floor shrinks the height by 1 - sin a: the ray that looks least far down takes the most, in the first
+    // row, and at the edges of it, which lie farther from the middle.
+    let script = "\
+        show plane(\"y\", 0)\n\
+        camera { eye: [0, 2, 5], at: [0, 0, 0] }\n\
+        render { size: [24, 18], method: \"sphere\" }\n\
+        budget {\n  mean_steps: 3,\n  max_steps: 1000\n}\n";
+    std::fs::write(folder.0.join("floor.sdf"), script).unwrap();
+    let [answer, _] = folder.run(&["test", "floor.sdf", "--junit", "r.xml"], 1);
+    assert!(
+        answer.contains("the budget is exceeded: `mean_steps` is "),
+        "{answer}"
+    );
+    assert!(answer.contains("floor.sdf:5:15"), "{answer}");
+    assert!(answer.contains("through pixel [0, 0]"), "{answer}");
+    assert!(!answer.contains("max_steps"), "{answer}");
+    let xml = std::fs::read_to_string(folder.0.join("r.xml")).unwrap();
+    assert!(
+        xml.contains("name=\"budget\">\n      <failure message=\"error: the budget is"),
+        "{xml}"
+    );
+    let [json, _] = folder.run(&["test", "floor.sdf", "--json"], 1);
+    let json: Value = serde_json::from_str(&json).unwrap();
+    let case = &json["scripts"][0]["tests"][0];
+    assert_eq!(
+        (&case["name"], &case["passed"]),
+        (&"budget".into(), &false.into())
+    );
+    let [steps, _] = folder.run(&["steps", "floor.sdf", "--json"], 0);
+    let steps: Value = serde_json::from_str(&steps).unwrap();
+    let (reached, counted) = (&case["reached"], &steps["methods"][0]);
+    for (a, b) in [
+        ("mean_steps", "mean"),
+        ("p99_steps", "p99"),
+        ("max_steps", "max"),
+        ("mean_evaluations", "evaluations"),
+    ] {
+        assert_eq!(reached[a], counted[b], "{a}");
+    }
+    let most = reached["mean_steps"].as_f64().unwrap();
+    let shown: f64 = answer
+        .split("`mean_steps` is ")
+        .nth(1)
+        .unwrap()
+        .lines()
+        .next()
+        .unwrap()
+        .parse()
+        .unwrap();
+    assert!((shown / most - 1.0).abs() < 1e-3, "{shown}, {most}");
+}
+
+#[test]
+fn budgets_do_not_depend_on_threads() {
+    use fieldstone::lang::load_text;
+    use fieldstone::render::CameraTracer;
+    for method in ["auto", "sphere"] {
+        let script = format!(
+            "show union(sphere(1), box(1.6), torus(2, 0.4), blend: smooth(0.3))\n\
+             render {{ size: [70, 50], method: \"{method}\" }}\n\
+             budget {{ unknown: 0 }}\n"
+        );
+        let of = |threads: usize| {
+            let tracer = CameraTracer::on(threads);
+            let loaded = load_text("blend.sdf", &script, &[], &tracer).unwrap();
+            loaded.run_tests(&tracer)[0].record.clone().unwrap()
+        };
+        let alone = of(1);
+        assert!(alone.mean_steps > 1.0 && alone.unknown == 0, "{alone:?}");
+        assert_eq!((&alone, &alone), (&of(2), &of(5)), "{method}");
+    }
+}

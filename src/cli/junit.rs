@@ -17,6 +17,8 @@ pub struct Case {
     pub name: String,
     /// What failed, as it is said to people; nothing if it passed.
     pub failure: Option<String>,
+    /// What was reached, where that was measured.
+    pub reached: Option<Value>,
 }
 
 impl Suite {
@@ -118,7 +120,7 @@ fn escaped(text: &str) -> String {
 
 /// All results as JSON.
 pub fn in_json(suites: &[Suite]) -> String {
-    let case = |case: &Case| json!({ "name": case.name, "passed": case.failure.is_none(), "message": case.failure });
+    let case = |case: &Case| json!({ "name": case.name, "passed": case.failure.is_none(), "message": case.failure, "reached": case.reached });
     let suite = |suite: &Suite| {
         let cases: Vec<Value> = suite.cases().iter().map(case).collect();
         json!({ "script": suite.script, "is_loaded": suite.cases.is_some(), "tests": cases })
@@ -141,6 +143,7 @@ mod tests {
         let case = |name: &str, failure: Option<&str>| Case {
             name: name.into(),
             failure: failure.map(String::from),
+            reached: None,
         };
         let suites = [
             Suite {

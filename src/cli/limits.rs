@@ -5,6 +5,7 @@ use super::failure::{Failure, reason};
 use super::limits_matrix::{Cell, Limit, Matrix};
 use super::tracing;
 use crate::lang::{self, LoadError, Loaded};
+use crate::render::CameraTracer;
 use crate::scene::Method;
 use crate::trace::SceneTracer;
 use clap::Args;
@@ -151,7 +152,7 @@ fn traced(path: &Path, methods: &[Method]) -> Result<Vec<Cell>, Failure> {
 
 fn by_method(loaded: &mut Loaded, method: Method) -> Cell {
     loaded.scene.settings.method = method;
-    let results = loaded.run_tests(&SceneTracer::default());
+    let results = loaded.run_tests(&CameraTracer::default());
     let judgements = results.iter().flat_map(|result| &result.judgements);
     let steps = results.iter().map(|result| result.steps).max().unwrap_or(0);
     Cell::of(judgements, steps)

@@ -6,12 +6,15 @@ use super::junit::{self, Case, Suite};
 use super::script::Scripts;
 use crate::lang::TestResult;
 use crate::output;
-use crate::trace::SceneTracer;
+use crate::render::CameraTracer;
+use crate::scene::CameraRecord;
 use clap::Args;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 const AFTER_HELP: &str = "\
-A script's tests are its blocks `test \"name\" { expect ... }`. The closing line is `N passed, N failed`; the exit \
+A script's tests are its blocks `test \"name\" { expect ... }` and its `budget { mean_steps: 20, p99_steps: 80, unknown: 0 }`, \
+which the camera's rays may not exceed. The closing line is `N passed, N failed`; the exit \
 code is 0 if all tests pass, 1 if some fail, and 2 if a script is wrong.
 
 Examples:
@@ -54,7 +57,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             answer(&format!("{}\n", heading(path)))?;
         }
         let mut cases = Vec::new();
-        for test in loaded.run_tests(&SceneTracer::default()) {
+        for test in loaded.run_tests(&CameraTracer::default()) {
             if !arguments.json {
                 tell(&test)?;
             }
@@ -62,6 +65,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             tally.passed += usize::from(has_passed);
             tally.failed += usize::from(!has_passed);
             cases.push(Case {
+                reached: test.record.as_deref().map(reached),
                 failure: (!has_passed).then(|| test.failures.render(false)),
                 name: test.name,
             });
@@ -113,6 +117,18 @@ fn report(
         junit::in_json(&suites)
     } else {
         closing(tally)
+    })
+}
+
+/// What the camera's rays took, for programs.
+fn reached(record: &CameraRecord) -> Value {
+    json!({
+        "mean_steps": record.mean_steps,
+        "p99_steps": record.p99_steps,
+        "max_steps": record.max_steps,
+        "longest": record.longest,
+        "mean_evaluations": record.mean_evaluations,
+        "unknown": record.unknown,
     })
 }
 

@@ -40,6 +40,7 @@ pub(super) enum Intrinsic {
     Rand,
     Reverse,
     Rgb,
+    Steps,
     Str,
     Stripes,
     Sum,
@@ -50,7 +51,7 @@ pub(super) enum Intrinsic {
 
 impl Intrinsic {
     /// Every one with its name, its arguments (a `?` marks those that may be left out), and what it gives.
-    pub const ALL: [(&'static str, Self, &'static str, &'static str); 27] = [
+    pub const ALL: [(&'static str, Self, &'static str, &'static str); 28] = [
         (
             "at",
             Self::At,
@@ -166,6 +167,12 @@ impl Intrinsic {
             Self::Rgb,
             "r, g, b",
             "a colour from linear components",
+        ),
+        (
+            "steps",
+            Self::Steps,
+            "which",
+            "how many steps the camera's rays take, in tests: `mean`, `p99` (what 99 % don't exceed) or `max`",
         ),
         ("str", Self::Str, "value, ...", "the values as one string"),
         (

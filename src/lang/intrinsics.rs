@@ -57,6 +57,7 @@ impl<'a> Machine<'a> {
                 self.displace(&first.value, first.span, &field, at)
             }
             (Intrinsic::Hits, Some(t)) => self.hits(&first, &t, third),
+            (Intrinsic::Steps, _) => self.steps(&first, at),
             (Intrinsic::Misses, _) => self.misses(&first),
             (Intrinsic::Heightfield, size) => self.heightfield(&first, size, third, at),
             (Intrinsic::Len, _) => match &first.value {

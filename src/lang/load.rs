@@ -1,6 +1,7 @@
 //! Loading a script: the whole way from its text to a scene.
 
 use super::ast::{StatementKind, TestBlock};
+use super::budget::Budget;
 use super::limits::{MAX_SCRIPT_BYTES, STACK_BYTES};
 use super::machine::{Global, Machine};
 use super::program::{Content, Program, Reader, content};
@@ -26,6 +27,7 @@ pub struct Loaded {
     pub parameters: Vec<(String, String)>,
     /// What is odd about it, but no error.
     pub warnings: Report,
+    budget: Option<Budget>,
     program: Program,
     globals: Vec<Vec<Global>>,
 }
@@ -136,24 +138,33 @@ impl Loaded {
         })
     }
 
-    /// Runs the script's `test` blocks, in order.
+    /// Runs the script's `test` blocks, in order, and then holds its `budget` against what the camera's rays take.
     pub fn run_tests(&self, tracer: &dyn Tracer) -> Vec<TestResult> {
         on_large_stack(|| {
             let mut machine = Machine::new(&self.program, tracer);
             machine.globals.clone_from(&self.globals);
             machine.shown.clone_from(&self.scene.shown);
             machine.settings = self.scene.settings;
-            let results = self.test_blocks().map(|test| {
-                let failures = Report::new(machine.test(test), self.program.sources.clone());
+            machine.camera = Some(self.scene.camera);
+            let report = |failures| Report::new(failures, self.program.sources.clone());
+            let mut results: Vec<TestResult> = Vec::new();
+            for test in self.test_blocks() {
+                let failures = report(machine.test(test));
                 let fates = std::mem::take(&mut machine.fates);
-                TestResult {
+                results.push(TestResult {
                     name: test.name.text.to_string(),
                     failures,
                     judgements: fates.judgements,
                     steps: fates.steps,
-                }
-            });
-            results.collect()
+                    record: None,
+                });
+            }
+            if let Some(budget) = &self.budget {
+                let failures = report(machine.hold(budget));
+                let record = machine.record.clone();
+                results.push(TestResult::of_budget(failures, record));
+            }
+            results
         })
     }
 }
@@ -195,6 +206,7 @@ fn loaded(
         scene,
         names,
         parameters,
+        budget,
         has_shows,
         ..
     } = machine.run();
@@ -215,6 +227,7 @@ fn loaded(
         names,
         parameters,
         warnings: report,
+        budget,
         program,
         globals,
     })

@@ -8,7 +8,9 @@ use super::program::Program;
 use super::report::Diagnostic;
 use super::source::{Span, Word};
 use super::value::{Range, Value};
-use crate::scene::{FieldShape, GraphBuilder, Mark, Node, Place, Settings, Tracer};
+use crate::scene::{
+    Camera, CameraRecord, FieldShape, GraphBuilder, Mark, Node, Place, Settings, Tracer,
+};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -43,6 +45,10 @@ pub(super) struct Machine<'a> {
     /// Everything that is shown, for `trace`.
     pub shown: Vec<Arc<Node>>,
     pub settings: Settings,
+    /// The point of view, while tests run.
+    pub camera: Option<Camera>,
+    /// What its rays took, once that was asked for.
+    pub record: Option<Arc<CameraRecord>>,
     /// How rays of the test that runs fared.
     pub fates: super::judgement::Fates,
     /// The graphs of the fields that are being made, the innermost last.
@@ -72,6 +78,8 @@ impl<'a> Machine<'a> {
             effort: 0,
             shown: Vec::new(),
             settings: Settings::default(),
+            camera: None,
+            record: None,
             fates: super::judgement::Fates::default(),
             builders: Vec::new(),
             calls: Vec::new(),

@@ -8,6 +8,7 @@
 mod answers;
 mod arguments;
 mod ast;
+mod budget;
 mod build;
 mod builtin;
 mod calls;

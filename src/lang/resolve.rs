@@ -1,7 +1,7 @@
 //! Settles before evaluation what every name stands for, reports those that stand for nothing, and notes which are used.
 
 use super::ast::*;
-use super::builtin::Builtin;
+use super::builtin::{Builtin, Intrinsic};
 use super::hint::{clipped, nearest};
 use super::program::{Module, Program};
 use super::report::Diagnostic;
@@ -248,11 +248,20 @@ impl Resolver<'_> {
         if !self.module_member(postfix) {
             self.expression(&mut postfix.base);
         }
+        let is_steps = matches!(
+            &postfix.base.kind,
+            Kind::Name(_, Binding::Builtin(Builtin::Intrinsic(Intrinsic::Steps)))
+        );
         for step in &mut postfix.steps {
             match step {
                 Step::Member(_) => {}
                 Step::Index(index) => self.expression(index),
-                Step::Call(arguments) => self.arguments(arguments),
+                Step::Call(arguments) => {
+                    if is_steps {
+                        quoted(arguments);
+                    }
+                    self.arguments(arguments);
+                }
                 Step::Method(word, binding, arguments) => {
                     *binding = self.method_binding(word);
                     self.arguments(arguments);
@@ -406,6 +415,15 @@ impl Resolver<'_> {
         }
         self.diagnostics.push(error);
         Binding::Unknown
+    }
+}
+
+/// Takes names that stand alone for words: `steps(mean)` is `steps("mean")`.
+fn quoted(arguments: &mut Arguments) {
+    for argument in &mut arguments.items {
+        if let Kind::Name(word, _) = &argument.value.kind {
+            argument.value.kind = Kind::Literal(Literal::Text(word.text.clone()));
+        }
     }
 }
 

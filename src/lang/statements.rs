@@ -1,6 +1,7 @@
 //! Statements, one after another: from a program to a scene.
 
 use super::ast::*;
+use super::budget::Budget;
 use super::machine::{Eval, Global, Machine, Stop};
 use super::program::Override;
 use super::report::Diagnostic;
@@ -16,6 +17,7 @@ pub(super) struct Made {
     pub scene: Scene,
     pub names: BTreeMap<String, Arc<Node>>,
     pub parameters: Vec<(String, String)>,
+    pub budget: Option<Budget>,
     /// Where each setting stands that can be given once.
     once: HashMap<&'static str, Span>,
     /// Whether the script has a `show`.
@@ -140,6 +142,9 @@ impl<'a> Machine<'a> {
                 if let Ok(settings) = self.render(word, entries) {
                     made.scene.settings = settings;
                 }
+            }
+            "budget" if self.is_first("budget", word.span, made) => {
+                made.budget = self.budget(word, entries).ok();
             }
             _ => {}
         }

@@ -18,9 +18,9 @@ use std::sync::Once;
 pub(super) struct Grammar;
 
 /// The words that start a statement.
-pub(super) const STATEMENT_WORDS: [&str; 14] = [
+pub(super) const STATEMENT_WORDS: [&str; 15] = [
     "import", "param", "let", "fn", "field", "pattern", "material", "show", "camera", "light",
-    "sky", "fog", "render", "test",
+    "sky", "fog", "render", "budget", "test",
 ];
 
 /// What a text says, as far as it could be read.

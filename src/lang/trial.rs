@@ -7,11 +7,13 @@ use super::operators::equal;
 use super::report::{Diagnostic, Report};
 use super::source::Span;
 use super::value::Value;
+use crate::scene::CameraRecord;
+use std::sync::Arc;
 
-/// How a `test` block of a script went.
+/// How a `test` block of a script, or its `budget`, went.
 #[derive(Clone, Debug)]
 pub struct TestResult {
-    /// The name of the block.
+    /// The name of the block; `budget` for that.
     pub name: String,
     /// What failed: expectations with both sides, or errors. Empty where the test passed.
     pub failures: Report,
@@ -19,9 +21,22 @@ pub struct TestResult {
     pub judgements: Vec<Judgement>,
     /// The most steps that a ray of the test took.
     pub steps: u32,
+    /// What the camera's rays took, of a `budget`.
+    pub record: Option<Arc<CameraRecord>>,
 }
 
 impl TestResult {
+    /// How a `budget` went.
+    pub(super) fn of_budget(failures: Report, record: Option<Arc<CameraRecord>>) -> Self {
+        Self {
+            name: "budget".into(),
+            failures,
+            judgements: Vec::new(),
+            steps: record.as_ref().map_or(0, |record| record.max_steps),
+            record,
+        }
+    }
+
     /// Whether every expectation was met.
     pub fn passed(&self) -> bool {
         self.failures.is_empty()

@@ -1,5 +1,6 @@
 //! Floor 6: camera to film: rays, tiles, threads, statistics.
 
+mod camera_tracer;
 mod channel;
 mod effort;
 mod errors;
@@ -15,6 +16,7 @@ mod sweep;
 mod tile;
 mod view;
 
+pub use camera_tracer::CameraTracer;
 pub use channel::Channel;
 pub use effort::{Cause, Share, effort};
 pub use errors::{Errors, root_mean_square};

@@ -29,7 +29,7 @@ pub use material::{Material, Model, Shadow, Term};
 pub use node::{Displacement, FieldShape, Node, Place, Shape};
 pub use settings::{Method, Settings};
 pub use supremum::sampled_supremum;
-pub use tracer::{TraceRecord, Tracer};
+pub use tracer::{CameraRecord, TraceRecord, Tracer};
 
 /// Everything that a picture shows.
 #[derive(Clone, Debug, Default)]

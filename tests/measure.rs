@@ -36,6 +36,7 @@ impl Folder {
         let output = command
             .args(arguments)
             .current_dir(&self.0)
+            .env("FIELDSTONE_CACHE", "kept")
             .output()
             .unwrap();
         let [out, err] =
@@ -568,4 +569,45 @@ fn budgets_do_not_depend_on_threads() {
         assert!(alone.mean_steps > 1.0 && alone.unknown == 0, "{alone:?}");
         assert_eq!((&alone, &alone), (&of(2), &of(5)), "{method}");
     }
+}
+
+#[test]
+fn references_of_charts_are_kept() {
+    let folder = Folder::new("kept");
+    let arguments = [
+        "chart",
+        "scene.sdf",
+        "--methods",
+        "sphere",
+        "--tolerances",
+        "0.1",
+        "--rounds",
+        "1",
+        "-q",
+    ];
+    let kept = || {
+        let files = std::fs::read_dir(folder.0.join("kept")).unwrap();
+        let mut names: Vec<_> = files.map(|file| file.unwrap().file_name()).collect();
+        names.sort();
+        names
+    };
+    let errors = || {
+        folder.run(&arguments, 0);
+        let table = folder.0.join("chart.json");
+        let json: Value = serde_json::from_str(&std::fs::read_to_string(table).unwrap()).unwrap();
+        json["scenes"][0]["points"][0]["errors"].clone()
+    };
+    let first = errors();
+    assert!(first.is_object(), "{first}");
+    let names = kept();
+    assert_eq!(names.len(), 1, "{names:?}");
+    assert_eq!((errors(), kept()), (first.clone(), names.clone()));
+    // What is damaged is found anew, and kept instead.
+    let path = folder.0.join("kept").join(&names[0]);
+    let whole = std::fs::read(&path).unwrap();
+    std::fs::write(&path, &whole[..whole.len() / 2]).unwrap();
+    assert_eq!(errors(), first);
+    assert_eq!(std::fs::read(&path).unwrap(), whole);
+    folder.run(&[&arguments[..], &["-D", "radius=2"]].concat(), 0);
+    assert_eq!(kept().len(), 2);
 }

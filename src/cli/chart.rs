@@ -6,10 +6,10 @@ use super::console::{answer, say_line};
 use super::failure::Failure;
 use super::script::{AnyScripts, compile, described};
 use super::study::{self, Study};
-use super::{tracing, value};
+use super::{tracing, truth_cache, value};
 use crate::output::chart::Chart;
 use crate::output::{self, Metadata};
-use crate::render::{Setting, Truth, sweep};
+use crate::render::{Setting, sweep};
 use crate::scene::{Method, Scene, Settings};
 use clap::Args;
 use std::io;
@@ -221,7 +221,7 @@ fn measure(arguments: &Arguments, path: &Path, mut scene: Scene) -> Result<Measu
     }
     let fault = |fault| Failure::Other(described(&fault, None));
     let wants_picture = arguments.errors.contains(&Metric::Image);
-    let truth = Truth::of(&scene, wants_picture).map_err(fault)?;
+    let truth = truth_cache::truth(&scene, wants_picture).map_err(fault)?;
     let judged = sweep(&scene, &settings, usize::from(arguments.rounds), &truth).map_err(fault)?;
     Ok(Measured {
         script: path.to_path_buf(),

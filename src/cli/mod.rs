@@ -34,6 +34,7 @@ mod table;
 mod test;
 mod trace;
 mod tracing;
+mod truth_cache;
 mod value;
 
 use clap::{CommandFactory, Parser, Subcommand};
@@ -56,7 +57,8 @@ Examples:
   fieldstone render scene.sdf -D n=7   with another value for its parameter `n`
   fieldstone explain scene.sdf         what is known of its shapes, and how rays find them
 
-Colours are left out where NO_COLOR is set, and where the output is no terminal.";
+Colours are left out where NO_COLOR is set, and where the output is no terminal. What the slow reference of charts says of a \
+scene is kept in FIELDSTONE_CACHE (a folder, or `off`), else in the user's cache folder, up to 256 MB.";
 
 /// Models implicit surfaces with a script and renders them with certified ray tracing.
 #[derive(Debug, Parser)]

@@ -2,8 +2,9 @@
 
 use super::chart_panels::series_of;
 use super::study::{Findings, Plan};
+use super::truth_cache;
 use crate::output::chart::{Axis, Chart, Panel, Point, Scale};
-use crate::render::{Errors, Hits, Setting, Truth};
+use crate::render::{Errors, Hits, Setting};
 use crate::scene::{Fault, Method, Scene};
 use crate::trace::World;
 
@@ -24,7 +25,7 @@ struct Done {
 pub fn constants(plan: &Plan) -> Result<Findings, Fault> {
     let mut panels = Vec::new();
     for (name, scene) in &plan.scenes {
-        let truth = Truth::of(scene, false)?;
+        let truth = truth_cache::truth(scene, false)?;
         let mut results = Vec::new();
         for method in &plan.methods {
             let of_factor = |factor| result(scene, *method, factor, truth.hits());

@@ -14,6 +14,7 @@ mod spread;
 mod statistics;
 mod sweep;
 mod tile;
+mod truth_bytes;
 mod view;
 
 pub use camera_tracer::CameraTracer;

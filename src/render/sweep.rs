@@ -80,6 +80,16 @@ impl Truth {
         })
     }
 
+    /// What a reference has said before.
+    pub(super) fn with(hits: Hits, film: Option<Film>) -> Self {
+        Self { hits, film }
+    }
+
+    /// The picture by the reference, if it was asked for.
+    pub fn film(&self) -> Option<&Film> {
+        self.film.as_ref()
+    }
+
     /// The hits of the reference.
     pub fn hits(&self) -> &Hits {
         &self.hits

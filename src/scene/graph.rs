@@ -9,6 +9,7 @@ use super::period::period;
 use crate::catalogue::{Bounds, Function};
 use crate::num::{Interval, Number, Steep, Vec3};
 use std::collections::HashMap;
+use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// A value inside a [`GraphBuilder`].
@@ -610,6 +611,11 @@ impl Graph {
         let mut registers = vec![N::splat(0.0); self.registers];
         self.run(p, &mut registers, &|i, q| self.shapes[i].evaluate(q));
         self.output(&registers, 0)
+    }
+
+    /// Writes all that its values depend on, but the shapes that it asks.
+    pub(super) fn describe(&self, out: &mut dyn fmt::Write) -> fmt::Result {
+        write!(out, "{:?} {:?}", self.steps, self.outputs)
     }
 
     /// The first operation whose slope has no bound over `region` though those of its operands have, with where it was

@@ -3,6 +3,7 @@
 mod blame;
 mod camera;
 mod derive;
+mod description;
 mod environment;
 mod extent;
 mod fault;

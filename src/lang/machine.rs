@@ -160,7 +160,17 @@ impl<'a> Machine<'a> {
 
     /// Forgets what an interrupted statement left behind.
     pub fn clear(&mut self) {
-        self.locals.clear();
+        self.unwind(0);
+    }
+
+    /// How many locals there are.
+    pub fn depth(&self) -> usize {
+        self.locals.len()
+    }
+
+    /// Forgets what an interrupted expectation left behind, but the locals up to this depth.
+    pub fn unwind(&mut self, depth: usize) {
+        self.locals.truncate(depth);
         self.builders.clear();
         (self.base, self.open) = (0, 0);
     }

@@ -51,12 +51,16 @@ impl<'a> Machine<'a> {
         self.fates = Fates::default();
         for step in &test.steps {
             let before = self.fates.judgements.len();
+            let depth = self.depth();
             let outcome = match step {
                 TestStep::Let(_, value) => self.eval(value).map(|value| self.push_local(value)),
                 TestStep::Expect(expectation) => self.expect(expectation),
             };
             if outcome.is_err() || matches!(step, TestStep::Expect(_)) {
                 self.fates.settle(before, outcome.is_ok());
+            }
+            if outcome.is_err() {
+                self.unwind(depth);
             }
             // Without a local the expectations after it mean nothing.
             if outcome.is_err() && matches!(step, TestStep::Let(..)) {

@@ -1,5 +1,6 @@
 //! A channel of a film as a picture of 8-bit sRGB.
 
+use super::chart::{NARROWEST, legend};
 use super::colormap::{heat, hue};
 use super::srgb;
 use crate::render::{Channel, Film};
@@ -19,7 +20,8 @@ const NOTHING: [u8; 3] = [0; 3];
 
 /// The picture of `channel`, if the film recorded it. Beauty and color by the transfer function of sRGB, what is brighter
 /// than 1 as 1; depth in greys, the nearest white, 1/4 the farthest; normals as `(1 + n) / 2`; steps and evaluations as heat
-/// up to what 99 % of the pixels don't exceed; hits grey, misses dark, unknown magenta; parts in hues of their own.
+/// up to what 99 % of the pixels don't exceed, with a bar below that says what the colours mean (unless the picture is too narrow
+/// for it); hits grey, misses dark, unknown magenta; parts in hues of their own.
 pub fn picture(film: &Film, channel: Channel) -> Option<Picture> {
     let plane = film.plane(channel)?;
     let paint = painter(channel, &plane.values);
@@ -29,6 +31,14 @@ pub fn picture(film: &Film, channel: Channel) -> Option<Picture> {
     for (pixel, numbers) in image.pixels_mut().zip(numbers) {
         not_a_number += u64::from(numbers.iter().any(|x| x.is_nan()));
         *pixel = Rgb(paint(numbers));
+    }
+    let words = match channel {
+        Channel::Steps => "steps a ray",
+        Channel::Evaluations => "evaluations a ray",
+        _ => "",
+    };
+    if !words.is_empty() && film.width() >= NARROWEST {
+        image = explained(image, words, &plane.values);
     }
     Some(Picture {
         image,
@@ -80,13 +90,31 @@ fn depth(values: &[f32]) -> Painter {
     })
 }
 
+/// The heat map with its bar below.
+fn explained(map: RgbImage, words: &str, values: &[f32]) -> RgbImage {
+    let most = hottest(values);
+    let or_more = values.iter().any(|x| f64::from(*x) > most);
+    let Ok(strip) = legend(map.width(), words, most, or_more, heat) else {
+        return map;
+    };
+    let mut whole = RgbImage::new(map.width(), map.height() + strip.height());
+    image::imageops::replace(&mut whole, &map, 0, 0);
+    image::imageops::replace(&mut whole, &strip, 0, map.height().into());
+    whole
+}
+
 fn cost(values: &[f32]) -> Painter {
+    let most = hottest(values);
+    Box::new(move |v| heat(f64::from(v[0]) / most))
+}
+
+/// The number of the last colour of heat: what 99 % of the values don't exceed, but at least 1.
+fn hottest(values: &[f32]) -> f64 {
     let mut sorted: Vec<f32> = values.iter().copied().filter(|x| x.is_finite()).collect();
     sorted.sort_by(f32::total_cmp);
-    let white = sorted
+    sorted
         .get((sorted.len() * 99 / 100).min(sorted.len().saturating_sub(1)))
-        .map_or(1.0, |x| f64::from(*x).max(1.0));
-    Box::new(move |v| heat(f64::from(v[0]) / white))
+        .map_or(1.0, |x| f64::from(*x).max(1.0))
 }
 
 fn verdict(v: f32) -> [u8; 3] {
@@ -148,6 +176,16 @@ mod tests {
         assert_ne!(verdict(1.0), verdict(0.0));
         assert_eq!(object(-1.0), NOTHING);
         assert_eq!(object(5.0), hue(5));
+    }
+
+    #[test]
+    fn heat_has_a_bar_below_where_there_is_room() {
+        for (width, is_explained) in [(NARROWEST, true), (NARROWEST - 1, false)] {
+            let film = Film::new([width, 3], &[Channel::Steps, Channel::Depth]);
+            let height = |channel| picture(&film, channel).unwrap().image.height();
+            assert_eq!(height(Channel::Steps) > 3, is_explained);
+            assert_eq!(height(Channel::Depth), 3);
+        }
     }
 
     #[test]

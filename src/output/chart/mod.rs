@@ -6,11 +6,13 @@
 
 mod canvas;
 mod draw;
+mod legend;
 mod marks;
 mod pixels;
 mod scale;
 mod vector;
 
+pub use legend::{NARROWEST, legend};
 pub use marks::{Look, STYLES};
 pub use pixels::pixels;
 pub use scale::Scale;

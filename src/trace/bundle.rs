@@ -56,6 +56,8 @@ pub(super) struct Bundle {
     pub enter: Column,
     /// Where they leave it; below the entry for those that miss it.
     pub leave: Column,
+    /// Whether they meet it.
+    meets: [u8; CAPACITY],
 }
 
 impl Bundle {
@@ -81,6 +83,7 @@ impl Bundle {
             point: [column; 3],
             enter: column,
             leave: column,
+            meets: [0; CAPACITY],
         })
     }
 
@@ -161,6 +164,18 @@ impl Bundle {
             };
         }
         is_taken
+    }
+
+    /// Collects the rays that meet the box of the last [`Clip`].
+    pub fn clipped(&self, rays: &mut Vec<u32>) {
+        rays.clear();
+        for (k, meets) in self.meets[..self.lanes()].chunks_exact(8).enumerate() {
+            // Most boxes are met by few rays.
+            if meets != [0; 8] {
+                let met = (0..8).filter(|i| meets[*i] != 0);
+                rays.extend(met.map(|i| (8 * k + i) as u32));
+            }
+        }
     }
 
     /// A walk of a ray could not tell; up to `free` it could.
@@ -300,6 +315,7 @@ impl Task for Clip<'_> {
             }
             b.enter[i] = enter;
             b.leave[i] = leave;
+            b.meets[i] = u8::from(enter <= leave);
         }
     }
 }
@@ -322,20 +338,34 @@ impl<F: ClosedForm> Task for Enter<'_, F> {
 
     /// As [`Bundle::offer`] for each ray.
     #[inline(always)]
-    fn run(self) -> bool {
-        let b = self.bundle;
-        let n = b.lanes();
-        let mut is_met = false;
-        for i in 0..n {
-            let (o, d) = (place(&b.origin, i), place(&b.direction, i));
-            is_met |= self.form.may_meet(o, d);
+    fn run(mut self) -> bool {
+        let mut is_new = false;
+        for first in (0..self.bundle.lanes()).step_by(WIDTH) {
+            let first = first.min(CAPACITY - WIDTH);
+            let mut is_met = false;
+            for i in first..first + WIDTH {
+                let (o, d) = (
+                    place(&self.bundle.origin, i),
+                    place(&self.bundle.direction, i),
+                );
+                is_met |= self.form.may_meet(o, d);
+            }
+            if is_met {
+                is_new |= self.cross(first);
+            }
         }
-        if !is_met {
-            return false;
-        }
+        is_new
+    }
+}
+
+impl<F: ClosedForm> Enter<'_, F> {
+    /// Asks a packet of rays; gives whether any hit is new.
+    #[inline(always)]
+    fn cross(&mut self, first: usize) -> bool {
+        let b = &mut *self.bundle;
         let number = u64::from(self.number);
         let mut taken = 0;
-        for i in 0..n {
+        for i in first..first + WIDTH {
             let (o, d) = (place(&b.origin, i), place(&b.direction, i));
             let (t, error) = self.form.crossing(o, d);
             let (found, best) = (

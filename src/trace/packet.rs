@@ -103,6 +103,8 @@ pub(super) struct Rules {
     pub extent: f64,
     /// Whether the shape has no finite bounds.
     pub is_endless: bool,
+    /// Whether any hit will do, wherever it is.
+    pub any: bool,
 }
 
 /// What a lane found.

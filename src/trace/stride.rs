@@ -74,6 +74,8 @@ fn step(packet: &mut Packet, values: &Lane, rules: &Rules) -> i64 {
     let slope = rules.lipschitz;
     let inverse = 1.0 / slope;
     let max_steps = i64::from(rules.max_steps);
+    // Where any hit will do, a change of sign needs no more.
+    let careless = if rules.any { f64::INFINITY } else { 0.0 };
     let mut going = 0;
     for i in 0..WIDTH {
         let (now, t, was) = (values[i], p.t[i], p.state[i]);
@@ -104,8 +106,8 @@ fn step(packet: &mut Packet, values: &Lane, rules: &Rules) -> i64 {
         let has_departed = p.departed[i] != 0;
         let goes_back = has_last && has_departed && !differs && !is_free;
         // A change of sign may hide a surface before it where more than the tolerance is not known to be free.
-        let is_narrow = sum + slope * tolerance >= slope * width * (1.0 - 1e-9);
-        let is_crossing = has_last && differs && (is_narrow || !has_departed);
+        let is_enough = sum + slope * tolerance + careless >= slope * width * (1.0 - 1e-9);
+        let is_crossing = has_last && differs && (is_enough || !has_departed);
         let retreats = has_last && differs && !is_crossing;
         // And beside the far end of a step that is doubted.
         let rest = high_t - t;
@@ -206,13 +208,14 @@ fn step(packet: &mut Packet, values: &Lane, rules: &Rules) -> i64 {
         let span = top_t - low_t;
         // Both are powers of two, so their products are exact.
         let (grid, finer) = (p.grid[i], p.finer[i]);
+        let widest = grid + careless;
         let starts_anew = is_marching && (begins || marched == state::MARCHING);
         let narrowings = if starts_anew { 0 } else { p.narrowings[i] };
-        let is_done = top_value == 0.0 || span <= grid || narrowings >= MAX_NARROWINGS;
+        let is_done = top_value == 0.0 || span <= widest || narrowings >= MAX_NARROWINGS;
         let secant = low_t + low_value / (low_value - top_value) * span;
         let middle = low_t + 0.5 * span;
         let is_within = secant >= low_t && secant <= top_t;
-        let inner = if narrowings % 3 == 2 || !is_within {
+        let inner = if narrowings & 3 == 3 || !is_within {
             middle
         } else {
             secant

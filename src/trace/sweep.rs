@@ -196,12 +196,7 @@ impl World {
             PartKind::Marched(marched) => {
                 let bounds = &marched.region;
                 run_at(self.level, Clip { bundle, bounds });
-                scratch.rays.clear();
-                for ray in 0..bundle.count {
-                    if bundle.enter[ray] <= bundle.leave[ray] {
-                        scratch.rays.push(ray as u32);
-                    }
-                }
+                bundle.clipped(&mut scratch.rays);
                 !scratch.rays.is_empty() && self.march(marched, number, beam, any, scratch)
             }
         }
@@ -239,6 +234,7 @@ impl World {
             reach: self.reach(marched),
             extent: marched.region.radius_about_centre(),
             is_endless: marched.is_endless(),
+            any,
         };
         let rays = std::mem::take(&mut scratch.rays);
         let packets = rays.len().div_ceil(WIDTH);

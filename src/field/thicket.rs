@@ -5,7 +5,7 @@
 //! the same without it, to the bit, at every point of the ball; and so with signs for intersections and differences.
 //! Sources: the value rule of Barbier et al. 2025, with the constant of each child instead of 1; ranges as in Keeter 2025.
 
-use super::{Closure, Level, combine, compile_convex, compile_wide};
+use super::{Closure, Level, Task, combine, compile_convex, compile_wide, run_at};
 use crate::catalogue::{Combination, Operation, with_compiled_blend};
 use crate::num::{Dual, F64x32, Number, Vec3};
 use crate::scene::{Node, Shape};
@@ -32,17 +32,36 @@ enum Branch {
     Join(Arc<Combination>, Vec<Branch>),
 }
 
-/// The values that a field takes in a ball.
-#[derive(Clone, Copy, Debug, PartialEq)]
+impl Branch {
+    /// The number of its first leaf: leaves are numbered in order.
+    fn first(&self) -> usize {
+        match self {
+            Self::Leaf(number) => *number,
+            Self::Join(_, children) => children[0].first(),
+        }
+    }
+
+    /// The number behind its last leaf.
+    fn end(&self) -> usize {
+        match self {
+            Self::Leaf(number) => number + 1,
+            Self::Join(_, children) => children.last().map_or(0, Self::end),
+        }
+    }
+}
+
+/// The values that a field takes in each of 32 balls.
+#[derive(Clone, Copy, Debug)]
 pub struct Reach {
     /// At least this.
-    pub low: f64,
+    pub low: F64x32,
     /// At most this.
-    pub high: f64,
+    pub high: F64x32,
 }
 
 impl Reach {
     /// The numbers with their signs turned.
+    #[inline(always)]
     fn negated(self) -> Self {
         Self {
             low: -self.high,
@@ -51,21 +70,29 @@ impl Reach {
     }
 }
 
+/// What is left of a thicket in each of 32 balls.
+pub struct Sifted {
+    /// For each leaf the balls in which it has a say, a bit for each.
+    says: Vec<u32>,
+    /// The values there.
+    pub reach: Reach,
+}
+
+impl Sifted {
+    /// Whether the same leaves are left in two balls.
+    pub fn is_same(&self, a: usize, b: usize) -> bool {
+        self.says
+            .iter()
+            .all(|says| (says >> a ^ says >> b) & 1 == 0)
+    }
+}
+
 /// What is left of a thicket in a ball.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Thinned {
     branch: Branch,
-    /// The values there.
-    pub reach: Reach,
     /// How many leaves are left.
     pub leaves: usize,
-}
-
-impl Thinned {
-    /// Whether the same leaves are left in the same places.
-    pub fn is_same(&self, other: &Self) -> bool {
-        self.branch == other.branch
-    }
 }
 
 impl Thicket {
@@ -110,23 +137,55 @@ impl Thicket {
         joined(&self.root, values)
     }
 
-    /// What is left in the ball about point `lane` of those that `values` were taken at, with `radius`; `noise` is how
-    /// much of a value may be rounding.
-    pub fn thinned(&self, values: &[F64x32], lane: usize, radius: f64, noise: f64) -> Thinned {
+    /// What is left in the balls about the points that `values` were taken at, with these `radii`; `noise` is how much of a
+    /// value may be rounding.
+    pub fn sifted(&self, values: &[F64x32], radii: &F64x32, noise: f64) -> Sifted {
+        let mut says = vec![u32::MAX; self.leaves.len()];
         let reach = |leaf: usize| {
-            let room = self.leaves[leaf].lipschitz * radius * (1.0 + 1e-9) + noise;
-            let value = values[leaf].0[lane];
+            let value = values[leaf];
+            let room = *radii * F64x32::splat(self.leaves[leaf].lipschitz * (1.0 + 1e-9));
+            let room = room + F64x32::splat(noise);
             Reach {
                 low: value - room,
                 high: value + room,
             }
         };
-        let (branch, reach) = thinned(&self.root, &reach);
-        let leaves = count(&branch);
+        let reach = self.sift(&self.root, &reach, &mut says);
+        Sifted { says, reach }
+    }
+
+    /// Takes from `says` the leaves of a branch that have no say; gives its reach.
+    fn sift(&self, branch: &Branch, reach: &dyn Fn(usize) -> Reach, says: &mut [u32]) -> Reach {
+        let (combination, children) = match branch {
+            Branch::Leaf(number) => return reach(*number),
+            Branch::Join(combination, children) => (combination, children),
+        };
+        let mut all = self.sift(&children[0], reach, says);
+        for child in &children[1..] {
+            let own = self.sift(child, reach, says);
+            let standing = Standing {
+                combination,
+                own,
+                all: &mut all,
+            };
+            let Silenced { own, others } = run_at(self.level, standing);
+            says[child.first()..child.end()]
+                .iter_mut()
+                .for_each(|says| *says &= !own);
+            says[branch.first()..child.first()]
+                .iter_mut()
+                .for_each(|says| *says &= !others);
+        }
+        all
+    }
+
+    /// What is left in ball `lane`.
+    pub fn thinned(&self, sifted: &Sifted, lane: usize) -> Thinned {
+        let has_say = |leaf: usize| sifted.says[leaf] >> lane & 1 == 1;
+        let branch = left(&self.root, &has_say).expect("some leaf has a say");
         Thinned {
+            leaves: count(&branch),
             branch,
-            reach,
-            leaves,
         }
     }
 
@@ -200,69 +259,81 @@ fn joined(branch: &Branch, values: &[F64x32]) -> F64x32 {
     }
 }
 
+#[inline(always)]
 fn join<N: Number>(combination: &Combination, a: N, b: N) -> N {
     with_compiled_blend!(&combination.blend, blend => combination.operation.join(blend, a, b))
         .expect("a thicket has compiled blends alone")
 }
 
-/// What is left of a branch where its leaves have these reaches, and its own.
-fn thinned(branch: &Branch, reach: &dyn Fn(usize) -> Reach) -> (Branch, Reach) {
-    let (combination, children) = match branch {
-        Branch::Leaf(number) => return (branch.clone(), reach(*number)),
-        Branch::Join(combination, children) => (combination, children),
-    };
-    let width = combination.blend.width().unwrap_or(f64::INFINITY);
-    let (first, mut all) = thinned(&children[0], reach);
-    let mut kept = vec![first];
-    for child in &children[1..] {
-        let (child, own) = thinned(child, reach);
-        match standing(combination.operation, all, own, width) {
-            Standing::Silent => {}
-            Standing::Alone => {
-                kept.clear();
-                kept.push(child);
-                all = own;
-            }
-            Standing::Mixed => {
-                kept.push(child);
-                all = joined_reach(combination, all, own);
+/// What is left of a branch; none where no leaf has a say.
+fn left(branch: &Branch, has_say: &dyn Fn(usize) -> bool) -> Option<Branch> {
+    match branch {
+        Branch::Leaf(number) => has_say(*number).then(|| branch.clone()),
+        Branch::Join(combination, children) => {
+            let mut kept: Vec<Branch> = children.iter().filter_map(|c| left(c, has_say)).collect();
+            match kept.len() {
+                0 | 1 => kept.pop(),
+                _ => Some(Branch::Join(combination.clone(), kept)),
             }
         }
     }
-    match <[Branch; 1]>::try_from(kept) {
-        Ok([only]) => (only, all),
-        Err(kept) => (Branch::Join(combination.clone(), kept), all),
-    }
 }
 
-/// What a further child of a combination does to what the ones before it gave.
-enum Standing {
-    /// Nothing.
-    Silent,
-    /// It takes their place.
-    Alone,
-    /// It depends on the point.
-    Mixed,
+/// Finds in which balls a further child of a combination has no say beside what came before it, or the other way round. As
+/// a union: whose smallest value is above the other's largest by the width of the blend has none.
+struct Standing<'a> {
+    combination: &'a Combination,
+    /// The reach of the child.
+    own: Reach,
+    /// The reach of those before it; then of all.
+    all: &'a mut Reach,
 }
 
-/// The standing of a child with the reach `own` beside `all` before it.
-fn standing(operation: Operation, all: Reach, own: Reach, width: f64) -> Standing {
-    // As a union: whose smallest value is above the other's largest has no say.
-    let (all, own) = match operation {
-        Operation::Union | Operation::Joint => (all, own),
-        Operation::Intersection => (all.negated(), own.negated()),
-        Operation::Difference => (all.negated(), own),
-    };
-    if own.low > all.high + width {
-        Standing::Silent
-    } else if own.high + width < all.low && operation != Operation::Difference {
-        Standing::Alone
-    } else {
-        Standing::Mixed
+/// The balls in which a child has no say, and those in which all before it have none.
+struct Silenced {
+    own: u32,
+    others: u32,
+}
+
+impl Task for Standing<'_> {
+    type Output = Silenced;
+
+    #[inline(always)]
+    fn run(self) -> Silenced {
+        let operation = self.combination.operation;
+        let width = self.combination.blend.width().unwrap_or(f64::INFINITY);
+        let (all, own) = match operation {
+            Operation::Union | Operation::Joint => (*self.all, self.own),
+            Operation::Intersection => (self.all.negated(), self.own.negated()),
+            Operation::Difference => (self.all.negated(), self.own),
+        };
+        // What is subtracted from always has a say.
+        let alone = if operation == Operation::Difference {
+            f64::INFINITY
+        } else {
+            width
+        };
+        let joined = joined_reach(self.combination, *self.all, self.own);
+        let mut silenced = Silenced { own: 0, others: 0 };
+        for i in 0..F64x32::WIDTH {
+            let is_silent = own.low.0[i] > all.high.0[i] + width;
+            let is_alone = own.high.0[i] + alone < all.low.0[i];
+            silenced.own |= u32::from(is_silent) << i;
+            silenced.others |= u32::from(is_alone && !is_silent) << i;
+            let pick = |all: f64, own: f64, joined: f64| {
+                let other = if is_alone { own } else { joined };
+                if is_silent { all } else { other }
+            };
+            let (low, high) = (self.all.low.0[i], self.all.high.0[i]);
+            self.all.low.0[i] = pick(low, self.own.low.0[i], joined.low.0[i]);
+            self.all.high.0[i] = pick(high, self.own.high.0[i], joined.high.0[i]);
+        }
+        silenced
     }
 }
 
 /// The reach of a combination of two fields: it rises with both, or falls with what is subtracted.
+#[inline(always)]
 fn joined_reach(combination: &Combination, a: Reach, b: Reach) -> Reach {
     let b = match combination.operation {
         Operation::Difference => Reach {
@@ -272,7 +343,7 @@ fn joined_reach(combination: &Combination, a: Reach, b: Reach) -> Reach {
         _ => b,
     };
     // Room for the rounding of the join itself.
-    let room = |x: f64| 8.0 * f64::EPSILON * x.abs();
+    let room = |x: F64x32| x.abs() * F64x32::splat(8.0 * f64::EPSILON);
     let (low, high) = (
         join(combination, a.low, b.low),
         join(combination, a.high, b.high),
@@ -334,9 +405,11 @@ mod tests {
             let points = Vec3::new(axis(0), axis(1), axis(2));
             let values = thicket.values(&points);
             assert_eq!(thicket.joined(&values), whole(&points));
+            let radii = Lanes::from_fn(|lane| 0.6 * random(seed + lane as u64));
+            let sifted = thicket.sifted(&values, &radii, 1e-12);
             for (lane, centre) in centres.iter().enumerate() {
-                let radius = 0.6 * random(seed + lane as u64);
-                let thinned = thicket.thinned(&values, lane, radius, 1e-12);
+                let radius = radii.0[lane];
+                let thinned = thicket.thinned(&sifted, lane);
                 (left, all) = (left + thinned.leaves, all + thicket.leaves());
                 let inside = |k: usize, axis: usize| {
                     let way = place(seed * 1000 + k as u64, 1.0);
@@ -347,7 +420,7 @@ mod tests {
                 let places = Vec3::new(axis(0), axis(1), axis(2));
                 let (expected, found) = (whole(&places), thicket.value(&thinned)(&places));
                 assert_eq!(expected, found, "seed {seed}");
-                let Reach { low, high } = thinned.reach;
+                let (low, high) = (sifted.reach.low.0[lane], sifted.reach.high.0[lane]);
                 assert!(expected.0.iter().all(|x| low <= *x && *x <= high));
                 let rate = |x: F64x32| Dual::new(x, [Lanes([0.6; 32])]);
                 let moving = Vec3::new(rate(places.x), rate(places.y), rate(places.z));

@@ -80,28 +80,32 @@ fn thinned_stages(
     let joined = thicket.joined(&values);
 
     let noise = 64.0 * f64::EPSILON * (rules.reach + to) * rules.lipschitz;
+    let change = |radius: f64| rules.lipschitz * radius * (1.0 + 1e-9) + noise;
+    let is_open = |k: usize| joined.0[k].abs() <= change(radii[k]);
+    if !(0..WIDTH).any(is_open) {
+        return Vec::new();
+    }
+    let sifted = thicket.sifted(&values, &Lanes(radii), noise);
     let mut stages: Vec<Stage> = Vec::new();
     let mut free = Some(1.0).filter(|_| from > 0.0);
+    // The ball in which the last stage begins.
+    let mut first = 0;
     for k in 0..WIDTH {
-        let change = rules.lipschitz * radii[k] * (1.0 + 1e-9) + noise;
-        let value = joined.0[k];
-        if value.abs() > change {
-            free = Some(value.signum());
-            continue;
-        }
-        let left = thicket.thinned(&values, k, radii[k], noise);
-        if left.reach.low > 0.0 || left.reach.high < 0.0 {
-            free = Some(left.reach.low.signum());
+        let (low, high) = (sifted.reach.low.0[k], sifted.reach.high.0[k]);
+        if !is_open(k) || low > 0.0 || high < 0.0 {
+            free = Some(joined.0[k].signum());
             continue;
         }
         let is_next = free.is_none();
         if let Some(last) = stages.last_mut()
             && is_next
-            && last.left.as_ref().is_some_and(|l| l.is_same(&left))
+            && sifted.is_same(first, k)
         {
             last.to = border(k + 1);
             continue;
         }
+        let left = thicket.thinned(&sifted, k);
+        first = k;
         stages.push(Stage {
             from: border(k),
             to: border(k + 1),

@@ -69,15 +69,27 @@ impl Film {
             .map_or(&[], |plane| &plane.values[pixel * n..][..n])
     }
 
-    /// Records some pixels, given by column and row, with the numbers of each of the film's channels.
-    pub(super) fn record(&mut self, pixels: &[[u32; 2]], numbers: &[Vec<f32>]) {
-        let places: Vec<usize> = pixels.iter().map(|[i, j]| self.index(*i, *j)).collect();
-        for (plane, numbers) in self.planes.iter_mut().zip(numbers) {
+    /// The film in bands of so many rows, from the top, each of which can be recorded by itself.
+    pub(super) fn bands(&mut self, rows: u32) -> Vec<Band<'_>> {
+        let (width, height) = (self.width, self.height);
+        let firsts = (0..height).step_by(rows.max(1) as usize);
+        let band = |first| Band {
+            first,
+            rows: rows.min(height - first),
+            width,
+            planes: Vec::new(),
+        };
+        let mut bands: Vec<Band> = firsts.map(band).collect();
+        for plane in &mut self.planes {
             let n = plane.channel.components();
-            for (place, numbers) in places.iter().zip(numbers.chunks_exact(n)) {
-                plane.values[place * n..][..n].copy_from_slice(numbers);
+            let mut rest = &mut plane.values[..];
+            for band in &mut bands {
+                let (numbers, after) = rest.split_at_mut((band.rows * width) as usize * n);
+                band.planes.push((n, numbers));
+                rest = after;
             }
         }
+        bands
     }
 
     fn index(&self, i: u32, j: u32) -> usize {
@@ -86,5 +98,41 @@ impl Film {
             "the pixel is on the film"
         );
         j as usize * self.width as usize + i as usize
+    }
+}
+
+/// Some rows of a film.
+pub(super) struct Band<'a> {
+    first: u32,
+    rows: u32,
+    width: u32,
+    /// For each channel how many numbers a pixel has, and the numbers.
+    planes: Vec<(usize, &'a mut [f32])>,
+}
+
+impl Band<'_> {
+    /// Records some pixels, given by column and row of the film, with the numbers of each of its channels.
+    ///
+    /// # Panics
+    /// If a pixel is not in the band.
+    pub fn record(&mut self, pixels: &[[u32; 2]], numbers: &[Vec<f32>]) {
+        let place = |&[i, j]: &[u32; 2]| {
+            let is_here = i < self.width && j >= self.first && j - self.first < self.rows;
+            assert!(is_here, "the pixel is in the band");
+            (j - self.first) as usize * self.width as usize + i as usize
+        };
+        let places: Vec<usize> = pixels.iter().map(place).collect();
+        for ((n, plane), numbers) in self.planes.iter_mut().zip(numbers) {
+            match n {
+                3 => put(plane.as_chunks_mut::<3>().0, &places, numbers.as_chunks().0),
+                _ => put(plane, &places, numbers),
+            }
+        }
+    }
+}
+
+fn put<T: Copy>(pixels: &mut [T], places: &[usize], numbers: &[T]) {
+    for (place, number) in places.iter().zip(numbers) {
+        pixels[*place] = *number;
     }
 }

@@ -30,7 +30,7 @@ impl Hits {
         let trace = |tile: &Tile| {
             let middle = |pixel: &[u32; 2]| pixel.map(f64::from);
             let mut hits = Self::default();
-            for block in &tile.blocks {
+            for block in tile.blocks() {
                 let rays = view.rays(block.iter().map(middle));
                 let outcomes = whitted.first_hits(&rays, &mut hits.census);
                 hits.outcomes.extend(outcomes.iter());

@@ -1,5 +1,6 @@
 //! The whole picture: tiles on threads.
 
+use super::film::Band;
 use super::statistics::{Layout, Tally};
 use super::tile::{Shared, Tile};
 use super::{Channel, Film, Statistics, View};
@@ -91,7 +92,7 @@ pub(super) fn on_threads<T: Sync, R: Send>(
 pub fn render<S: Surfaces + ?Sized>(scene: &Scene, world: &S, options: &RenderOptions) -> Rendered {
     let start = Instant::now();
     let settings = &scene.settings;
-    let film = Film::new(settings.size, options.channels);
+    let mut film = Film::new(settings.size, options.channels);
     let channels: Vec<Channel> = film.planes().iter().map(|plane| plane.channel).collect();
     let shared = Shared {
         whitted: Whitted::new(scene, world),
@@ -100,20 +101,26 @@ pub fn render<S: Surfaces + ?Sized>(scene: &Scene, world: &S, options: &RenderOp
         channels: &channels,
     };
     let tiles = Tile::all(settings.size, options.tile.max(1));
-    let result = Mutex::new(Recording {
-        film,
-        tally: Tally::default(),
-        done: 0,
-    });
+    let rows = tiles.first().map_or(1, Tile::rows);
+    let bands: Vec<Mutex<Band>> = film.bands(rows).into_iter().map(Mutex::new).collect();
+    let result = Mutex::new(Recording::default());
     let work = |tile: &Tile| {
         if options.is_cancelled() {
             return;
         }
         let (blocks, cost) = tile.render(&shared);
-        let done = match result.lock() {
-            Ok(mut recording) => recording.add(tile, &blocks, cost),
+        let band = bands[(tile.top() / rows) as usize].lock();
+        let done = match (band, result.lock()) {
+            (Ok(mut band), Ok(mut recording)) => {
+                let done = recording.add(cost);
+                drop(recording);
+                for (pixels, numbers) in &blocks {
+                    band.record(pixels, numbers);
+                }
+                done
+            }
             // Another thread panicked; rayon passes that on.
-            Err(_) => return,
+            _ => return,
         };
         if let Some(progress) = options.progress {
             progress(Progress {
@@ -123,7 +130,8 @@ pub fn render<S: Surfaces + ?Sized>(scene: &Scene, world: &S, options: &RenderOp
         }
     };
     let (_, threads) = on_threads(options.threads, &tiles, work);
-    let Recording { film, tally, done } = result
+    drop(bands);
+    let Recording { tally, done } = result
         .into_inner()
         .unwrap_or_else(|poisoned| poisoned.into_inner());
     Rendered {
@@ -138,19 +146,16 @@ pub fn render<S: Surfaces + ?Sized>(scene: &Scene, world: &S, options: &RenderOp
     }
 }
 
-/// What the tiles recorded so far. Every pixel is recorded once and counts only add up, so the order does not matter.
+/// What the tiles took so far. Counts only add up, so the order does not matter.
+#[derive(Default)]
 struct Recording {
-    film: Film,
     tally: Tally,
     done: usize,
 }
 
 impl Recording {
     /// Adds a tile, and gives how many there are now.
-    fn add(&mut self, tile: &Tile, blocks: &[Vec<Vec<f32>>], cost: Tally) -> usize {
-        for (pixels, numbers) in tile.blocks.iter().zip(blocks) {
-            self.film.record(pixels, numbers);
-        }
+    fn add(&mut self, cost: Tally) -> usize {
         self.tally += cost;
         self.done += 1;
         self.done

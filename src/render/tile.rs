@@ -21,11 +21,14 @@ pub struct Shared<'a, S: Surfaces + ?Sized> {
 /// what they find does not depend on how blocks are put together to tiles.
 const BLOCK: u32 = 16;
 
+/// The numbers of each channel for the pixels of a block, which are given by column and row.
+pub type Developed = (Vec<[u32; 2]>, Vec<Vec<f32>>);
+
 /// A square of blocks.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Tile {
-    /// The pixels of each block: columns and rows, in the order in which they are traced.
-    pub blocks: Vec<Vec<[u32; 2]>>,
+    corner: [u32; 2],
+    end: [u32; 2],
 }
 
 impl Tile {
@@ -33,32 +36,44 @@ impl Tile {
     /// the right and lower edge.
     pub fn all(size: [u32; 2], side: u32) -> Vec<Self> {
         let side = side.min(size[0].max(size[1])).next_multiple_of(BLOCK);
-        corners([0, 0], size, side)
-            .map(|corner| {
-                let end = [0, 1].map(|i| size[i].min(corner[i] + side));
-                let blocks = corners(corner, end, BLOCK).map(|corner| block(corner, size));
-                Self {
-                    blocks: blocks.collect(),
-                }
-            })
-            .collect()
+        let tile = |corner: [u32; 2]| Self {
+            corner,
+            end: [0, 1].map(|i| size[i].min(corner[i] + side)),
+        };
+        corners([0, 0], size, side).map(tile).collect()
     }
 
-    /// The numbers of each channel for the pixels of each block, and what they cost.
-    pub fn render<S: Surfaces + ?Sized>(&self, shared: &Shared<S>) -> (Vec<Vec<Vec<f32>>>, Tally) {
+    /// The uppermost row.
+    pub fn top(&self) -> u32 {
+        self.corner[1]
+    }
+
+    /// How many rows there are.
+    pub fn rows(&self) -> u32 {
+        self.end[1] - self.corner[1]
+    }
+
+    /// The pixels of each block: columns and rows, in the order in which they are traced.
+    pub fn blocks(&self) -> impl Iterator<Item = Vec<[u32; 2]>> {
+        let end = self.end;
+        corners(self.corner, end, BLOCK).map(move |corner| block(corner, end))
+    }
+
+    /// The blocks' numbers, and what they cost.
+    pub fn render<S: Surfaces + ?Sized>(&self, shared: &Shared<S>) -> (Vec<Developed>, Tally) {
         let start = Instant::now();
         let mut tally = Tally::default();
         let samples = shared.settings.samples.max(1);
-        let expose = |block: &Vec<[u32; 2]>| {
+        let expose = |block: Vec<[u32; 2]>| {
             let mut exposure = Exposure::new(shared.channels, block.len());
             for sample in 0..samples {
-                let rays = sample_rays(shared, block, sample);
+                let rays = sample_rays(shared, &block, sample);
                 expose(shared, &rays, &mut exposure, &mut tally);
             }
             tally.unknown_pixels += exposure.unknown() as u64;
-            exposure.developed(samples)
+            (block, exposure.developed(samples))
         };
-        let blocks = self.blocks.iter().map(expose).collect();
+        let blocks = self.blocks().map(expose).collect();
         tally.busy = start.elapsed();
         (blocks, tally)
     }
@@ -70,9 +85,9 @@ fn corners(from: [u32; 2], to: [u32; 2], side: u32) -> impl Iterator<Item = [u32
     steps(1).flat_map(move |y| steps(0).map(move |x| [x, y]))
 }
 
-/// The pixels of a block along Morton's curve, those outside of the picture left out: each run of 64 is a square of 8 x 8,
+/// The pixels of a block along Morton's curve, those beyond `end` left out: each run of 64 is a square of 8 x 8,
 /// so that what is traced together lies together.
-fn block(corner: [u32; 2], size: [u32; 2]) -> Vec<[u32; 2]> {
+fn block(corner: [u32; 2], end: [u32; 2]) -> Vec<[u32; 2]> {
     (0..u64::from(BLOCK * BLOCK))
         .map(|code| {
             [
@@ -80,7 +95,7 @@ fn block(corner: [u32; 2], size: [u32; 2]) -> Vec<[u32; 2]> {
                 corner[1] + even_bits(code >> 1),
             ]
         })
-        .filter(|[i, j]| *i < size[0] && *j < size[1])
+        .filter(|[i, j]| *i < end[0] && *j < end[1])
         .collect()
 }
 
@@ -140,8 +155,8 @@ mod tests {
         for size in [[1, 1], [7, 5], [64, 64], [130, 67], [3, 200]] {
             for side in [1, 8, 33, 64, u32::MAX] {
                 let tiles = Tile::all(size, side);
-                let blocks = tiles.iter().flat_map(|tile| &tile.blocks);
-                let pixels: Vec<_> = blocks.flatten().copied().collect();
+                let blocks = tiles.iter().flat_map(Tile::blocks);
+                let pixels: Vec<_> = blocks.flatten().collect();
                 let distinct: HashSet<_> = pixels.iter().copied().collect();
                 assert_eq!(pixels.len(), (size[0] * size[1]) as usize);
                 assert_eq!(distinct.len(), pixels.len());
@@ -153,7 +168,8 @@ mod tests {
     #[test]
     fn runs_of_64_rays_are_squares_of_8_by_8() {
         for run in Tile::all([64, 64], 64)[0]
-            .blocks
+            .blocks()
+            .collect::<Vec<_>>()
             .iter()
             .flat_map(|block| block.chunks(64))
         {
@@ -168,7 +184,7 @@ mod tests {
             let tiles = Tile::all([130, 67], side);
             tiles
                 .into_iter()
-                .flat_map(|tile| tile.blocks)
+                .flat_map(|tile| tile.blocks().collect::<Vec<_>>())
                 .collect::<HashSet<_>>()
         };
         assert!(

@@ -7,7 +7,7 @@
 
 use super::Rays;
 use super::bundle::{Bundle, WIDTH, across, larger, lesser, place};
-use crate::catalogue::Bounds;
+use super::hierarchy::{BRANCHES, Boxes, Eight};
 use crate::field::{Level, Task, run_at};
 use glam::DVec3;
 
@@ -51,6 +51,55 @@ impl Task for Ranges<'_> {
             }
         }
         ranges
+    }
+}
+
+/// Finds where a beam enters boxes.
+struct Enters<'a> {
+    beam: &'a Beam,
+    boxes: &'a Boxes,
+    limit: f64,
+}
+
+impl Task for Enters<'_> {
+    type Output = Eight;
+
+    #[inline(always)]
+    fn run(self) -> Eight {
+        let (mut enter, mut leave) = ([0.0; BRANCHES], [self.limit; BRANCHES]);
+        for axis in 0..3 {
+            let (low, high) = (&self.boxes.low[axis], &self.boxes.high[axis]);
+            let [first, last] = self.beam.origins.map(|end| end[axis]);
+            let Pace { rise, fall } = self.beam.paces[axis];
+            // Rays that rise come in at `low` and leave at `high`, rays that fall the other way round.
+            for k in 0..BRANCHES {
+                let up = (low[k] - last) * rise[0];
+                let down = (first - high[k]) * fall[0];
+                enter[k] = larger(up * (1.0 - 1e-12), enter[k]);
+                enter[k] = larger(down * (1.0 - 1e-12), enter[k]);
+            }
+            if rise[1] < f64::INFINITY {
+                for k in 0..BRANCHES {
+                    let way = high[k] - first;
+                    let far = larger(way * rise[0], way * rise[1]);
+                    leave[k] = lesser(far * (1.0 + 1e-12), leave[k]);
+                }
+            } else if fall[1] < f64::INFINITY {
+                for k in 0..BRANCHES {
+                    let way = last - low[k];
+                    let far = larger(way * fall[0], way * fall[1]);
+                    leave[k] = lesser(far * (1.0 + 1e-12), leave[k]);
+                }
+            }
+        }
+        for k in 0..BRANCHES {
+            enter[k] = if enter[k] <= leave[k] {
+                enter[k]
+            } else {
+                f64::INFINITY
+            };
+        }
+        enter
     }
 }
 
@@ -100,39 +149,11 @@ impl Beam {
         }
     }
 
-    /// Where the first of the rays may enter a box, if one of them may before `limit`. Source: interval arithmetic as in
-    /// Boulos, Wald and Shirley 2006.
-    pub fn enters(&self, bounds: &Bounds, limit: f64) -> Option<f64> {
-        let (mut enter, mut leave) = (0.0f64, limit);
-        for axis in 0..3 {
-            let (near, far) = self.within(axis, bounds.low[axis], bounds.high[axis]);
-            enter = enter.max(near * (1.0 - 1e-12));
-            leave = leave.min(far * (1.0 + 1e-12));
-        }
-        (enter <= leave).then_some(enter)
-    }
-
-    /// Where rays may come between two planes across an axis, and where all have left.
-    #[inline]
-    fn within(&self, axis: usize, low: f64, high: f64) -> (f64, f64) {
-        let (first, last) = (self.origins[0][axis], self.origins[1][axis]);
-        let pace = &self.paces[axis];
-        // Rays that rise come in at `low` and leave at `high`, rays that fall the other way round.
-        let near = if low > last {
-            (low - last) * pace.rise[0]
-        } else if high < first {
-            (first - high) * pace.fall[0]
-        } else {
-            0.0
-        };
-        let far = if pace.rise[1] < f64::INFINITY {
-            (high - first) * pace.rise[usize::from(high > first)]
-        } else if pace.fall[1] < f64::INFINITY {
-            (last - low) * pace.fall[usize::from(last > low)]
-        } else {
-            f64::INFINITY
-        };
-        (near, far)
+    /// Where the first of the rays may enter each of some boxes, if one of them may before `limit`; else infinite. Source:
+    /// interval arithmetic as in Boulos, Wald and Shirley 2006.
+    pub fn enters(&self, boxes: &Boxes, limit: f64, level: Level) -> Eight {
+        let beam = self;
+        run_at(level, Enters { beam, boxes, limit })
     }
 
     /// A ball that holds every place of the rays from distance `from` to `to`.
@@ -205,6 +226,7 @@ impl Pace {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::catalogue::Bounds;
     use crate::num::samples::random;
     use crate::trace::hierarchy::clip;
     use crate::trace::{Footprint, Ray};
@@ -246,11 +268,10 @@ mod tests {
             for ray in &rays {
                 if let Some((enter, _)) = clip(ray.origin, ray.direction.recip(), &bounds, 100.0) {
                     entered += 1;
-                    let first = beam.enters(&bounds, 100.0);
-                    assert!(
-                        first.is_some_and(|t| t <= enter),
-                        "seed {seed}: {first:?}, {enter}"
-                    );
+                    let boxes = Boxes::new([bounds].into_iter());
+                    let [first, others @ ..] = beam.enters(&boxes, 100.0, Level::best());
+                    assert_eq!(others, [f64::INFINITY; 7], "there is one box");
+                    assert!(first <= enter, "seed {seed}: {first:?}, {enter}");
                 }
             }
         }

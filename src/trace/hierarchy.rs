@@ -1,28 +1,71 @@
 //! A hierarchy of boxes over the parts, so that a ray asks only those that it can meet.
 //!
-//! Source: Wald 2007, binned building by the surface area heuristic, here with the median of the longest axis, which is
-//! within a few per cent for the even distributions that scripts make.
+//! Each node has up to eight boxes, which are asked at once. Sources: Wald 2007, binned building by the surface area
+//! heuristic, here with the median of the longest axis, which is within a few per cent for the even distributions that
+//! scripts make; Wald, Benthin and Boulos 2008 for wide nodes.
 
 use crate::catalogue::Bounds;
 use glam::DVec3;
 
-/// How many parts a leaf holds at most.
-const LEAF: usize = 4;
+/// How many boxes a node has: as many as lanes ask at once.
+pub(super) const BRANCHES: usize = 8;
 
-/// A node: a leaf with some of the parts, or two children, the first of which follows it.
-struct Branch {
-    bounds: Bounds,
-    /// A leaf's first part in the order, or the number of the second child.
-    start: u32,
-    /// A leaf's number of parts; 0 for a node with children.
-    count: u32,
+/// A number for each box of a node.
+pub(super) type Eight = [f64; BRANCHES];
+
+/// The boxes of a node, side by side: their low and high corners, by axis. Those that are not there are empty.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Boxes {
+    pub low: [Eight; 3],
+    pub high: [Eight; 3],
+}
+
+impl Boxes {
+    /// Up to 8 boxes.
+    pub fn new(bounds: impl Iterator<Item = Bounds>) -> Self {
+        let mut boxes = Self {
+            low: [[f64::INFINITY; BRANCHES]; 3],
+            high: [[f64::NEG_INFINITY; BRANCHES]; 3],
+        };
+        for (k, bounds) in bounds.take(BRANCHES).enumerate() {
+            for axis in 0..3 {
+                boxes.low[axis][k] = bounds.low[axis];
+                boxes.high[axis][k] = bounds.high[axis];
+            }
+        }
+        boxes
+    }
+
+    /// Box number `k`.
+    pub fn at(&self, k: usize) -> Bounds {
+        Bounds {
+            low: [0, 1, 2].map(|axis| self.low[axis][k]),
+            high: [0, 1, 2].map(|axis| self.high[axis][k]),
+        }
+    }
+}
+
+/// What is in a box.
+#[derive(Clone, Copy, Debug)]
+enum Inside {
+    /// Nothing: there is no box.
+    Nothing,
+    /// A part.
+    Part(u32),
+    /// A node.
+    Node(u32),
+}
+
+struct Node {
+    boxes: Boxes,
+    inside: [Inside; BRANCHES],
 }
 
 /// The hierarchy.
 #[derive(Default)]
 pub(super) struct Hierarchy {
-    branches: Vec<Branch>,
-    order: Vec<u32>,
+    /// The first is the root.
+    nodes: Vec<Node>,
 }
 
 impl Hierarchy {
@@ -40,67 +83,70 @@ impl Hierarchy {
         hierarchy
     }
 
-    fn build(&mut self, items: &mut [(u32, Bounds)]) {
-        let bounds = items
-            .iter()
-            .fold(Bounds::EMPTY, |b, (_, item)| b.hull(*item));
-        let here = self.branches.len();
-        let count = if items.len() <= LEAF {
-            items.len() as u32
-        } else {
-            0
-        };
-        self.branches.push(Branch {
-            bounds,
-            start: self.order.len() as u32,
-            count,
-        });
-        if count > 0 {
-            self.order.extend(items.iter().map(|(part, _)| *part));
-            return;
+    /// Adds a node over these parts; gives its number.
+    fn build(&mut self, items: &mut [(u32, Bounds)]) -> u32 {
+        let here = self.nodes.len();
+        let mut groups = vec![items];
+        // The largest is halved until there are as many as boxes.
+        while groups.len() < BRANCHES {
+            let largest = (0..groups.len())
+                .max_by_key(|k| groups[*k].len())
+                .unwrap_or(0);
+            if groups[largest].len() < 2 {
+                break;
+            }
+            let (first, second) = halved(groups.swap_remove(largest));
+            groups.extend([first, second]);
         }
-        let centres = Bounds::around(items.iter().map(|(_, b)| b.centre()));
-        let size = centres.size();
-        let axis = (0..3)
-            .max_by(|a, b| size[*a].total_cmp(&size[*b]))
-            .unwrap_or(0);
-        let middle = items.len() / 2;
-        items.select_nth_unstable_by(middle, |(i, a), (j, b)| {
-            a.centre()[axis].total_cmp(&b.centre()[axis]).then(i.cmp(j))
+        let hulls = groups.iter().map(|items| {
+            let boxes = items.iter().map(|(_, bounds)| *bounds);
+            boxes.fold(Bounds::EMPTY, Bounds::hull)
         });
-        let (first, second) = items.split_at_mut(middle);
-        self.build(first);
-        self.branches[here].start = self.branches.len() as u32;
-        self.build(second);
+        self.nodes.push(Node {
+            boxes: Boxes::new(hulls),
+            inside: [Inside::Nothing; BRANCHES],
+        });
+        for (k, group) in groups.into_iter().enumerate() {
+            self.nodes[here].inside[k] = match group {
+                [(part, _)] => Inside::Part(*part),
+                more => Inside::Node(self.build(more)),
+            };
+        }
+        here as u32
     }
 
-    /// Calls `visit` with every part of the leaves whose boxes `enters` finds met, and with what it gave for the leaf: where
-    /// that is entered.
-    pub fn visit(&self, enters: impl Fn(&Bounds) -> Option<f64>, mut visit: impl FnMut(u32, f64)) {
-        if self.branches.is_empty() {
-            return;
-        }
-        let mut stack = [0u32; 64];
-        let mut height = 1;
-        while height > 0 {
-            height -= 1;
-            let here = stack[height] as usize;
-            let branch = &self.branches[here];
-            let Some(enter) = enters(&branch.bounds) else {
-                continue;
-            };
-            if branch.count > 0 {
-                let start = branch.start as usize;
-                let parts = &self.order[start..start + branch.count as usize];
-                parts.iter().for_each(|part| visit(*part, enter));
-                continue;
-            }
-            for child in [branch.start, here as u32 + 1] {
-                stack[height] = child;
-                height += 1;
+    /// Calls `visit` with every part whose box `enters` finds met, and with where: it gives for each box of a node where that
+    /// is entered, infinite if it is not.
+    pub fn visit(&self, enters: impl Fn(&Boxes) -> Eight, mut visit: impl FnMut(u32, f64)) {
+        let mut open: Vec<u32> = Vec::with_capacity(64);
+        open.extend((!self.nodes.is_empty()).then_some(0));
+        while let Some(number) = open.pop() {
+            let node = &self.nodes[number as usize];
+            let entered = enters(&node.boxes);
+            for (inside, enter) in node.inside.iter().zip(entered) {
+                match inside {
+                    _ if enter == f64::INFINITY => {}
+                    Inside::Nothing => {}
+                    Inside::Part(part) => visit(*part, enter),
+                    Inside::Node(child) => open.push(*child),
+                }
             }
         }
     }
+}
+
+/// The two halves of some parts along the longest axis of their centres.
+fn halved(items: &mut [(u32, Bounds)]) -> (&mut [(u32, Bounds)], &mut [(u32, Bounds)]) {
+    let centres = Bounds::around(items.iter().map(|(_, b)| b.centre()));
+    let size = centres.size();
+    let axis = (0..3)
+        .max_by(|a, b| size[*a].total_cmp(&size[*b]))
+        .unwrap_or(0);
+    let middle = items.len() / 2;
+    items.select_nth_unstable_by(middle, |(i, a), (j, b)| {
+        a.centre()[axis].total_cmp(&b.centre()[axis]).then(i.cmp(j))
+    });
+    items.split_at_mut(middle)
 }
 
 /// Where a ray is inside of a box, from 0 to `limit`, given the reciprocals of its direction; a box that it only

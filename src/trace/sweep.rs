@@ -7,6 +7,7 @@
 use super::analytic::{ClosedForm, Crossing};
 use super::beam::Beam;
 use super::bundle::{Bundle, CAPACITY, Clip, Enter, Farthest, WIDTH};
+use super::hierarchy::{BRANCHES, Boxes};
 use super::inclines::{Derivatives, Gradient};
 use super::newton::Newton;
 use super::packet::{Found, Packet, Rules};
@@ -15,7 +16,6 @@ use super::stages::{Stage, stages};
 use super::stride::Stride;
 use super::world::World;
 use super::{Rays, Verdict};
-use crate::catalogue::Bounds;
 use crate::field::{Thinned, run_at};
 use std::cell::Cell;
 
@@ -110,12 +110,13 @@ impl World {
         let limit = self.farthest(&scratch.bundle);
         match known {
             Some(known) => {
-                let still = |(_, number): &(f64, u32)| {
-                    let bounds = &self.parts[*number as usize].bounds;
-                    beam.enters(bounds, limit).map(|enter| (enter, *number))
-                };
                 scratch.candidates.clear();
-                scratch.candidates.extend(known.iter().filter_map(still));
+                for some in known.chunks(BRANCHES) {
+                    let bounds = some.iter().map(|(_, n)| self.parts[*n as usize].bounds);
+                    let entered = beam.enters(&Boxes::new(bounds), limit, self.level);
+                    let still = some.iter().zip(entered).filter(|(_, t)| *t < f64::INFINITY);
+                    scratch.candidates.extend(still.map(|((_, n), t)| (t, *n)));
+                }
             }
             None => self.meet(&beam, limit, question, &mut scratch.candidates),
         }
@@ -174,14 +175,11 @@ impl World {
                 .filter(|n| is_seen(**n))
                 .map(|n| (0.0, *n)),
         );
-        let enters = |bounds: &Bounds| beam.enters(bounds, limit);
-        self.hierarchy.visit(enters, |number, _| {
-            let enter = beam.enters(&self.parts[number as usize].bounds, limit);
-            met.extend(
-                enter
-                    .filter(|_| is_seen(number))
-                    .map(|enter| (enter, number)),
-            );
+        let enters = |boxes: &Boxes| beam.enters(boxes, limit, self.level);
+        self.hierarchy.visit(enters, |number, enter| {
+            if is_seen(number) {
+                met.push((enter, number));
+            }
         });
     }
 

@@ -3,7 +3,7 @@
 use super::analytic::Crossing;
 use super::bundle::{Bundle, Conclude, place, run};
 use super::finding::Finding;
-use super::hierarchy::{Hierarchy, clip, stretch};
+use super::hierarchy::{Boxes, Hierarchy, clip, stretch};
 use super::join::joined;
 use super::march::{Job, Walked, march};
 use super::method::{
@@ -14,10 +14,10 @@ use super::part::{Marched, Part, PartKind, flatten};
 use super::survey::{resolved, survey};
 use super::sweep::Question;
 use super::{Occlusion, Outcome, Outcomes, Ray, Rays, Verdict};
-use crate::catalogue::Bounds;
 use crate::field::{Level, normal, run_at, shares};
 use crate::scene::{Fault, Material, Method, Node, Scene, Settings, Shadow};
 use glam::DVec3;
+use std::array;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -300,7 +300,10 @@ impl World {
     fn begin(&self, ray: &Ray, is_seen: &dyn Fn(&Part) -> bool) -> Search {
         let mut candidates: Vec<(f64, u32)> = self.endless.iter().map(|n| (0.0, *n)).collect();
         let inverse = ray.direction.recip();
-        let enters = |bounds: &Bounds| Some(clip(ray.origin, inverse, bounds, ray.t_max)?.0);
+        let enters = |boxes: &Boxes| {
+            let enter = |k| clip(ray.origin, inverse, &boxes.at(k), ray.t_max);
+            array::from_fn(|k| enter(k).map_or(f64::INFINITY, |(enter, _)| enter))
+        };
         self.hierarchy
             .visit(enters, |number, enter| candidates.push((enter, number)));
         candidates.retain(|(_, number)| is_seen(&self.parts[*number as usize]));

@@ -6,7 +6,8 @@
 
 use super::attenuation::absorbed;
 use super::medium::{Media, Medium};
-use super::{Census, Features, Surface, Surfaces, offset};
+use super::palette::Palette;
+use super::{Census, Features, Surfaces, offset};
 use crate::trace::{Outcome, Ray, Rays, Verdict, Visibility};
 use glam::DVec3;
 
@@ -41,14 +42,14 @@ impl Passage {
 /// What reaches the start of each of `shadows`. Where the tracer could not tell whether something is in the way, nothing
 /// is.
 pub fn passages<S: Surfaces + ?Sized>(
-    surfaces: &S,
+    (surfaces, palette): (&S, &Palette),
     features: &Features,
     shadows: &ShadowRays,
     census: &mut Census,
 ) -> Vec<Passage> {
     let mut passages = vec![Passage::CLEAR; shadows.rays.len()];
     if features.tinted_shadows {
-        walk(surfaces, shadows, &mut passages, census);
+        walk((surfaces, palette), shadows, &mut passages, census);
     } else if features.opaque_shadows {
         stop(surfaces, shadows, &mut passages, census);
     }
@@ -88,7 +89,7 @@ struct Walkers {
 
 /// Follows the rays through tinted surfaces, all of them one boundary at a time.
 fn walk<S: Surfaces + ?Sized>(
-    surfaces: &S,
+    seen: (&S, &Palette),
     shadows: &ShadowRays,
     passages: &mut [Passage],
     census: &mut Census,
@@ -102,7 +103,7 @@ fn walk<S: Surfaces + ?Sized>(
         if walkers.rays.is_empty() {
             return;
         }
-        walkers = step(surfaces, &walkers, passages, census);
+        walkers = step(seen, &walkers, passages, census);
     }
     for index in walkers.indices {
         census.unknown_secondary += 1;
@@ -115,7 +116,7 @@ fn walk<S: Surfaces + ?Sized>(
 
 /// Takes every walker to its next boundary; those that arrive at the light or are blocked fall out.
 fn step<S: Surfaces + ?Sized>(
-    surfaces: &S,
+    (surfaces, palette): (&S, &Palette),
     walkers: &Walkers,
     passages: &mut [Passage],
     census: &mut Census,
@@ -125,6 +126,7 @@ fn step<S: Surfaces + ?Sized>(
         |t| &mut t.shadow,
         || surfaces.nearest(&walkers.rays, Visibility::Casting),
     );
+    let looks = palette.looks(surfaces, &outcomes);
     let mut further = Walkers::default();
     for (i, hit) in outcomes.iter().enumerate() {
         let (ray, media, index) = (&walkers.rays.at(i), &walkers.media[i], walkers.indices[i]);
@@ -140,7 +142,7 @@ fn step<S: Surfaces + ?Sized>(
         if !is_hit {
             continue;
         }
-        let Some(surface) = Surface::of(surfaces, hit.part, hit.point) else {
+        let Some(surface) = looks.at(i) else {
             continue;
         };
         passage.share *= surface.passes;
@@ -149,7 +151,7 @@ fn step<S: Surfaces + ?Sized>(
         }
         let next = straight_on(ray, &hit);
         if next.t_max > 0.0 {
-            let medium = Medium::new(hit.part, &surface);
+            let medium = Medium::new(hit.part, surface);
             let is_entering = hit.normal.dot(ray.direction) <= 0.0;
             further.rays.push(&next);
             further.media.push(media.across(medium, is_entering).beyond);

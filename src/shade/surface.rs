@@ -1,7 +1,7 @@
 //! A surface point with all its terms evaluated and its materials mixed.
 
 use super::Surfaces;
-use crate::scene::{Material, Model, Shadow};
+use crate::scene::{Material, Model, Shadow, Term};
 use crate::trace::Paint;
 use glam::DVec3;
 use std::sync::Arc;
@@ -37,20 +37,47 @@ pub struct Surface {
     pub material: usize,
 }
 
+/// What gives the terms of a material their values, one after the other.
+pub(super) trait Terms {
+    /// The value of a number.
+    fn number(&mut self, term: &Term<f64>) -> f64;
+
+    /// The value of a colour.
+    fn color(&mut self, term: &Term<DVec3>) -> DVec3;
+}
+
+/// The values at a point.
+struct At([f64; 3]);
+
+impl Terms for At {
+    fn number(&mut self, term: &Term<f64>) -> f64 {
+        term.at(self.0)
+    }
+
+    fn color(&mut self, term: &Term<DVec3>) -> DVec3 {
+        term.at(self.0)
+    }
+}
+
 impl Surface {
     /// `material` at `point`, in the coordinates of the shape that was painted.
     pub fn new(material: &Arc<Material>, point: [f64; 3]) -> Self {
+        Self::of_terms(material, &mut At(point))
+    }
+
+    /// `material` where its terms have these values.
+    pub(super) fn of_terms(material: &Arc<Material>, terms: &mut impl Terms) -> Self {
         let m = material;
-        let (refract, ior) = (m.refract.at(point), m.ior.at(point));
+        let (refract, ior) = (terms.number(&m.refract), terms.number(&m.ior));
         let share = |holds: bool| if holds { 1.0 } else { 0.0 };
         Self {
-            color: m.color.at(point),
-            ambient: m.ambient.at(point),
-            diffuse: m.diffuse.at(point),
-            specular: m.specular.at(point),
-            shininess: m.shininess.at(point).max(0.0),
+            color: terms.color(&m.color),
+            ambient: terms.number(&m.ambient),
+            diffuse: terms.number(&m.diffuse),
+            specular: terms.number(&m.specular),
+            shininess: terms.number(&m.shininess).max(0.0),
             blinn: share(m.model == Model::Blinn),
-            reflect: m.reflect.at(point),
+            reflect: terms.number(&m.reflect),
             refract,
             // A pattern may give anything; what bends no light at all has an index of 1.
             ior: if ior > 0.0 && ior.is_finite() {
@@ -59,7 +86,7 @@ impl Surface {
                 1.0
             },
             fresnel: share(m.fresnel),
-            absorb: m.absorb.at(point).max(DVec3::ZERO),
+            absorb: terms.color(&m.absorb).max(DVec3::ZERO),
             passes: match m.shadow {
                 Shadow::Opaque => 0.0,
                 Shadow::Tinted => refract,
@@ -134,7 +161,6 @@ impl Surface {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Term;
 
     fn colored(color: DVec3) -> Arc<Material> {
         Arc::new(Material {

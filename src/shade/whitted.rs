@@ -6,8 +6,9 @@
 //!                           +--> shadow rays, a batch of their own
 //! ```
 //!
-//! A wave is all rays of one depth; each knows the pixel sample that it adds to and by which weight. Rays of a sample
-//! keep their order, so the sum of a sample has the same bits however the samples are batched. Source: Whitted 1980.
+//! A wave is all rays of one depth and kind; each knows the pixel sample that it adds to and by which weight. The rays of a
+//! sample, and the waves that they are in, keep their order, so the sum of a sample has the same bits however the samples are
+//! batched. Source: Whitted 1980.
 
 use super::attenuation::{absorbed, sight, through_fog};
 use super::light::Lamp;
@@ -207,7 +208,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         if self.features.lit {
             self.ask_lamps(&wave, studio);
         }
-        let mut next = Waves::new(depth + 1);
+        let mut next = [(); 2].map(|()| Waves::new(depth + 1));
         if self.features.reflects {
             for (i, path) in paths.iter().enumerate() {
                 if let Some(surface) = looks.at(i).filter(|surface| surface.sends_on()) {
@@ -217,7 +218,9 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                 }
             }
         }
-        next.waves
+        let [mut waves, refracted] = next.map(|waves| waves.waves);
+        waves.extend(refracted);
+        waves
     }
 
     /// The sky behind a ray.
@@ -280,7 +283,12 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                 samples,
                 radiance,
             } = gains;
-            let passed = passages(self.surfaces, &self.features, &rays, studio.census);
+            let passed = passages(
+                (self.surfaces, &self.palette),
+                &self.features,
+                &rays,
+                studio.census,
+            );
             for (i, passage) in passed.iter().enumerate() {
                 studio.light.radiance[samples[i]] += radiance[i] * passage.share;
                 studio.light.unknown[samples[i]] |= passage.unknown;
@@ -315,16 +323,18 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         lit.shadow_rays(&hits, &mut gains.rays.rays);
     }
 
-    /// Adds the reflected and the refracted ray of a hit to the next waves, unless they are too deep or too faint.
-    fn send_on(&self, hit: &Meeting, next: &mut Waves, census: &mut Census) {
+    /// Adds the reflected and the refracted ray of a hit to the next waves of each kind, unless they are too deep or too
+    /// faint.
+    fn send_on(&self, hit: &Meeting, next: &mut [Waves; 2], census: &mut Census) {
+        let [mirrored, through] = next;
         let Onward {
             reflected,
             refracted,
         } = hit.onward();
-        if let Some(weight) = self.passing(hit, reflected.share, next, census) {
+        if let Some(weight) = self.passing(hit, reflected.share, mirrored, census) {
             census.reflected += 1;
             let ray = hit.leaving(hit.normal, reflected.direction);
-            next.push(
+            mirrored.push(
                 ray,
                 Path {
                     weight,
@@ -335,7 +345,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         let Some((branch, crossing)) = refracted else {
             return;
         };
-        if let Some(weight) = self.passing(hit, branch.share, next, census) {
+        if let Some(weight) = self.passing(hit, branch.share, through, census) {
             census.refracted += 1;
             let ray = hit.leaving(-hit.normal, branch.direction);
             let path = Path {
@@ -343,7 +353,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                 sample: hit.path.sample,
                 media: crossing.beyond,
             };
-            next.push(ray, path);
+            through.push(ray, path);
         }
     }
 

@@ -4,7 +4,7 @@ use crate::pictures::times;
 use crate::scenes::{NOT_MEASURED, in_words, scene, verdict, world};
 use crate::{Options, Outcome};
 use fieldstone::output::{markdown, short};
-use fieldstone::render::{Hits, Spread};
+use fieldstone::render::{Channel, Hits, Spread};
 use std::process::Command;
 use std::time::Instant;
 
@@ -95,7 +95,7 @@ pub fn section(options: &Options) -> Outcome<String> {
             ("width", options.width.to_string()),
         ];
         let scene = scene("s5a", &parameters)?;
-        let [one, _] = times(&scene, options.rounds)?;
+        let [one, _] = times(&scene, options.rounds, &[Channel::Beauty])?;
         pictures.push(one);
         let hits = Hits::of(&scene, &world(&scene)?, 0);
         let covered = 100.0 * hits.census.hits as f64 / hits.rays.len() as f64;

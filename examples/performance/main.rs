@@ -93,7 +93,7 @@ exceed, rays missed, rays on a wrong surface). What it does not hold is not meas
 
 The peers' figures are for 1280 x 720 on one thread unless said otherwise: POV-Ray 3.7 draws the whole picture with floor \
 and shadows; the JIT of fidget 0.5.1 draws the object only, its depth and normals, 1024 voxels deep (512 at 640 x 360). \
-Ours is the time from the first tile to the last, shading included. The scenes are in \
+Ours is the time from the first tile to the last: with shading for the whole picture, with depth and normals for the object only. The scenes are in \
 [benches/scenes](../benches/scenes/README.md); \"object only\" is `-D object_only=1`. A single row is measured anew by, as an example,
 
 ```

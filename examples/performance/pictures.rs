@@ -5,7 +5,7 @@ use crate::peers::Peers;
 use crate::scenes::{NOT_MEASURED, SCENES, in_words, scene, sized, verdict};
 use crate::{Options, Outcome};
 use fieldstone::output::{markdown, short};
-use fieldstone::render::{Case, RenderOptions, Spread, rounds};
+use fieldstone::render::{Case, Channel, RenderOptions, Spread, rounds};
 use fieldstone::scene::{Method, Scene};
 
 /// What has to be reached against a peer.
@@ -65,13 +65,12 @@ fn cases() -> [Case; 2] {
 }
 
 /// The times of a picture on one thread and on two.
-pub fn times(scene: &Scene, number: u16) -> Outcome<[Spread; 2]> {
-    let runs = rounds(
-        scene,
-        &cases(),
-        usize::from(number),
-        &RenderOptions::default(),
-    );
+pub fn times(scene: &Scene, number: u16, channels: &[Channel]) -> Outcome<[Spread; 2]> {
+    let options = RenderOptions {
+        channels,
+        ..RenderOptions::default()
+    };
+    let runs = rounds(scene, &cases(), usize::from(number), &options);
     let runs = runs.map_err(|fault| fault.message)?;
     Ok([0, 1].map(|case| {
         let walls = runs[case]
@@ -97,7 +96,12 @@ pub fn measure(options: &Options) -> Outcome<Vec<Timed>> {
             };
             eprintln!("{name}, {what}");
             let scene = sized(name, width, what == "object")?;
-            let times = times(&scene, options.rounds)?;
+            // The peer of objects alone gives their depth and normals.
+            let channels: &[Channel] = match what {
+                "object" => &[Channel::Depth, Channel::Normal],
+                _ => &[Channel::Beauty],
+            };
+            let times = times(&scene, options.rounds, channels)?;
             all.push(Timed {
                 scene: name.into(),
                 what,
@@ -227,7 +231,7 @@ pub fn interactive(options: &Options) -> Outcome<Vec<Vec<String>>> {
         ("s2", blend, 20.0),
     ] {
         eprintln!("{name}");
-        let [_, two] = times(&scene, options.rounds)?;
+        let [_, two] = times(&scene, options.rounds, &[Channel::Beauty])?;
         let rate = 1e3 / two.median;
         rows.push(vec![
             format!(

@@ -50,22 +50,23 @@ impl Witness {
 
 /// What rays have found against the constant of one part.
 #[derive(Default)]
-pub(super) struct Evidence(Mutex<Option<(Witness, u64)>>);
+pub(super) struct Evidence(Mutex<Option<Box<(Witness, u64)>>>);
 
 impl Evidence {
     /// Takes what a ray has found.
     pub fn add(&self, witness: Witness) {
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        *kept = Some(match *kept {
-            Some((worst, rays)) if !witness.outweighs(&worst) => (worst, rays + 1),
-            Some((_, rays)) => (witness, rays + 1),
-            None => (witness, 1),
-        });
+        let (worst, rays) = &mut **kept.get_or_insert_with(|| Box::new((witness, 0)));
+        *rays += 1;
+        if witness.outweighs(worst) {
+            *worst = witness;
+        }
     }
 
     /// The worst of it, and how many rays have found something.
     pub fn worst(&self) -> Option<(Witness, u64)> {
-        *self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.as_deref().copied()
     }
 }
 

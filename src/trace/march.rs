@@ -159,7 +159,7 @@ fn finish_single<W: Walk>(part: &Marched, rays: &[Ray], seat: &mut Seat<W>) -> W
                 ));
                 (field.value, field.partial[0])
             }
-            _ => ((part.single)(&Vec3::new(p.x, p.y, p.z)), 0.0),
+            _ => (part.single()(&Vec3::new(p.x, p.y, p.z)), 0.0),
         };
         if let Some(walked) = seat.observe(part, rays, value, slope) {
             return walked;

@@ -64,10 +64,10 @@ pub struct Marched {
     pub lipschitz: f64,
     /// Whether the field is never negative, so that a hit can't be told by a change of sign.
     pub is_sheet: bool,
-    /// The field, over wide lanes and one ray at a time: the same bits.
+    /// The field, over wide lanes.
     pub value: Closure<F64x32>,
-    /// The field of a single ray.
-    pub single: Closure<f64>,
+    /// What [`Marched::single`] gives, once it was asked for.
+    single: OnceLock<Closure<f64>>,
     /// The field and its derivative along the ray, where the field is convex.
     pub slope: Option<Slope>,
     /// The shape.
@@ -197,13 +197,18 @@ impl Marched {
             lipschitz,
             is_sheet: node.traits().is_sheet,
             value: compile_wide(node, level),
-            single: compile(node),
+            single: OnceLock::new(),
             slope,
             gradient: OnceLock::new(),
             ranges: OnceLock::new(),
             evidence: Evidence::default(),
             node: shape,
         })
+    }
+
+    /// The field of a single ray, compiled when it is first asked for: the same bits as over wide lanes.
+    pub fn single(&self) -> &Closure<f64> {
+        self.single.get_or_init(|| compile(&self.node))
     }
 
     /// The field and its gradient, compiled when they are first asked for.

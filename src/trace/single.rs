@@ -29,7 +29,7 @@ impl Packet {
         let ray = self.ray_of(lane);
         let sample = |t: f64| {
             let p = ray.at(t);
-            (t, (marched.single)(&Vec3::new(p.x, p.y, p.z)))
+            (t, marched.single()(&Vec3::new(p.x, p.y, p.z)))
         };
         let samples = [self.last_t[lane], self.t[lane]].map(sample);
         marched.evidence.add(Witness::on(&ray, samples));
@@ -93,7 +93,7 @@ impl Packet {
         loop {
             let p = ray.at(walk.t());
             self.evaluations[lane] += 1;
-            let value = (marched.single)(&Vec3::new(p.x, p.y, p.z));
+            let value = marched.single()(&Vec3::new(p.x, p.y, p.z));
             if let Some(samples) = trail.extend(&segment, (walk.t(), value)) {
                 marched.evidence.add(Witness::on(ray, samples));
             }

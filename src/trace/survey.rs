@@ -69,7 +69,7 @@ fn walk<W: Walk>(part: &Marched, ray: &Ray, job: &Job) -> Walked {
             }
             None => {
                 let (t, p) = (walk.t(), ray.at(walk.t()));
-                let value = (part.single)(&Vec3::new(p.x, p.y, p.z));
+                let value = part.single()(&Vec3::new(p.x, p.y, p.z));
                 if let Some(samples) = trail
                     .extend(&job.segment, (t, value))
                     .filter(|_| W::RESTS_ON_CONSTANT)

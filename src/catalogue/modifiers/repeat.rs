@@ -23,7 +23,8 @@ entry! {
         count: [f64; 3], Vector3, Range::COUNT, default [f64::INFINITY; 3];
     }
     derived {
-        axes: [Option<Row>; 3] = [None; 3];
+        // In a box of its own, or nodes would be larger for every modifier.
+        axes: Box<[Option<Row>; 3]> = Box::default();
         child: Bounds = Bounds::EVERYWHERE;
         grid: Bounds = Bounds::EVERYWHERE;
     }

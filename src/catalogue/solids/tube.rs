@@ -17,7 +17,8 @@ entry! {
         radius: f64, Number, Range::POSITIVE, default 0.15;
     }
     derived {
-        curve: Curve = Curve::new(a, b, c);
+        // In a box of its own, or nodes would be larger for every solid.
+        curve: Box<Curve> = Box::new(Curve::new(a, b, c));
     }
     source "Quilez, distance functions (quadratic Bezier); a distance, so its constant is 1"
     example "tube([-0.8, -0.5, 0.2], [0, 1.4, 0], [0.8, -0.5, -0.2], 0.15)"

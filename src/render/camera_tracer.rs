@@ -54,10 +54,10 @@ impl Tracer for CameraTracer {
 fn record(scene: &Scene, hits: &Hits) -> CameraRecord {
     let steps = hits.steps();
     let tiles = Tile::all(scene.settings.size, RenderOptions::default().tile);
-    let pixels = tiles.iter().flat_map(|tile| tile.blocks.iter().flatten());
+    let pixels: Vec<[u32; 2]> = tiles.iter().flat_map(Tile::blocks).flatten().collect();
     let row_first = |[x, y]: [u32; 2]| [y, x];
     let first = |is_meant: &dyn Fn(usize) -> bool| {
-        let numbered = pixels.clone().enumerate();
+        let numbered = pixels.iter().enumerate();
         let meant = numbered
             .filter(|(i, _)| is_meant(*i))
             .map(|(_, pixel)| row_first(*pixel));

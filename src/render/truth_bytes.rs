@@ -156,7 +156,10 @@ fn picture(bytes: &[u8]) -> Option<Film> {
     let values: Vec<f32> = values.iter().map(|b| f32::from_le_bytes(*b)).collect();
     let rows = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
     let mut film = Film::new(size, &[Channel::Beauty]);
-    film.record(&rows.collect::<Vec<_>>(), &[values]);
+    let pixels: Vec<[u32; 2]> = rows.collect();
+    for band in &mut film.bands(size[1]) {
+        band.record(&pixels, std::slice::from_ref(&values));
+    }
     Some(film)
 }
 

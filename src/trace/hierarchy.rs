@@ -56,6 +56,9 @@ enum Inside {
     Node(u32),
 }
 
+/// A part's number and its box.
+type Item = (u32, Bounds);
+
 struct Node {
     boxes: Boxes,
     inside: [Inside; BRANCHES],
@@ -70,8 +73,8 @@ pub(super) struct Hierarchy {
 
 impl Hierarchy {
     /// The hierarchy over finite boxes, each with its part's number.
-    pub fn new(boxes: &[(u32, Bounds)]) -> Self {
-        let mut items: Vec<(u32, Bounds)> = boxes
+    pub fn new(boxes: &[Item]) -> Self {
+        let mut items: Vec<Item> = boxes
             .iter()
             .filter(|(_, b)| !b.is_empty())
             .copied()
@@ -84,7 +87,7 @@ impl Hierarchy {
     }
 
     /// Adds a node over these parts; gives its number.
-    fn build(&mut self, items: &mut [(u32, Bounds)]) -> u32 {
+    fn build(&mut self, items: &mut [Item]) -> u32 {
         let here = self.nodes.len();
         let mut groups = vec![items];
         // The largest is halved until there are as many as boxes.
@@ -95,8 +98,8 @@ impl Hierarchy {
             if groups[largest].len() < 2 {
                 break;
             }
-            let (first, second) = halved(groups.swap_remove(largest));
-            groups.extend([first, second]);
+            let halves = halved(groups.swap_remove(largest));
+            groups.extend(halves);
         }
         let hulls = groups.iter().map(|items| {
             let boxes = items.iter().map(|(_, bounds)| *bounds);
@@ -136,7 +139,7 @@ impl Hierarchy {
 }
 
 /// The two halves of some parts along the longest axis of their centres.
-fn halved(items: &mut [(u32, Bounds)]) -> (&mut [(u32, Bounds)], &mut [(u32, Bounds)]) {
+fn halved(items: &mut [Item]) -> [&mut [Item]; 2] {
     let centres = Bounds::around(items.iter().map(|(_, b)| b.centre()));
     let size = centres.size();
     let axis = (0..3)
@@ -146,7 +149,8 @@ fn halved(items: &mut [(u32, Bounds)]) -> (&mut [(u32, Bounds)], &mut [(u32, Bou
     items.select_nth_unstable_by(middle, |(i, a), (j, b)| {
         a.centre()[axis].total_cmp(&b.centre()[axis]).then(i.cmp(j))
     });
-    items.split_at_mut(middle)
+    let (first, second) = items.split_at_mut(middle);
+    [first, second]
 }
 
 /// Where a ray is inside of a box, from 0 to `limit`, given the reciprocals of its direction; a box that it only

@@ -57,7 +57,7 @@ impl Ball {
 
     /// Both crossings of the line in order, and half their distance; not numbers where the line does not meet the sphere.
     #[inline(always)]
-    fn roots(&self, origin: DVec3, direction: DVec3) -> (f64, f64, f64) {
+    pub(super) fn roots(&self, origin: DVec3, direction: DVec3) -> (f64, f64, f64) {
         let q = origin - self.centre;
         let b = q.dot(direction);
         let foot = q - direction * b;
@@ -75,6 +75,22 @@ impl Ball {
         (near, far, half_chord)
     }
 
+    /// A bound of the error of both crossings.
+    #[inline(always)]
+    pub(super) fn error(&self, origin: DVec3, half_chord: f64) -> f64 {
+        let size = (origin - self.centre).length() + self.radius;
+        // The foot of the perpendicular is known to a few roundings of `size`, its square to a few of size * radius.
+        // Where the ray is tangent, half the chord itself is known to the root of that only.
+        let place = 8.0 * U * size;
+        let tangent = (2.0 * self.radius * place).sqrt();
+        let chord = if half_chord > tangent {
+            half_chord
+        } else {
+            tangent
+        };
+        place * (1.0 + self.radius / chord)
+    }
+
     /// Both crossings in order, where the line meets the sphere.
     fn crossings(&self, ray: &Ray) -> Option<(f64, f64)> {
         let (near, far, half_chord) = self.roots(ray.origin, ray.direction);
@@ -89,16 +105,7 @@ impl ClosedForm for Ball {
     fn crossing(&self, origin: DVec3, direction: DVec3) -> (f64, f64) {
         let (near, far, half_chord) = self.roots(origin, direction);
         let size = (origin - self.centre).length() + self.radius;
-        // The foot of the perpendicular is known to a few roundings of `size`, its square to a few of size * radius.
-        // Where the ray is tangent, half the chord itself is known to the root of that only.
-        let place = 8.0 * U * size;
-        let tangent = (2.0 * self.radius * place).sqrt();
-        let chord = if half_chord > tangent {
-            half_chord
-        } else {
-            tangent
-        };
-        let error = place * (1.0 + self.radius / chord);
+        let error = self.error(origin, half_chord);
         let on_surface = 16.0 * U * size;
         let t = if near > on_surface { near } else { far };
         // Also where the roots are not numbers.

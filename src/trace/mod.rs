@@ -8,7 +8,9 @@
 pub mod analytic;
 mod beam;
 mod bundle;
+mod chord;
 mod columns;
+mod cut;
 mod evidence;
 mod fan;
 mod finding;

@@ -1,6 +1,7 @@
 //! The parts of a world: what a hard union at the root falls apart into.
 
 use super::analytic::{Ball, Block, Facet, HalfSpace};
+use super::cut::Cut;
 use super::evidence::Evidence;
 use super::method::{Demands, Reach};
 use crate::catalogue::Modifier;
@@ -35,6 +36,7 @@ impl PartKind {
             Self::HalfSpace(_) => "analytic plane",
             Self::Block(_) => "analytic box",
             Self::Facet(_) => "analytic triangle",
+            Self::Marched(m) if m.cut.is_some() => "analytic chords",
             Self::Marched(m) if m.slope.is_some() => "convex: by slope",
             Self::Marched(m) if m.thicket.is_some() => "sphere tracing, thinned out",
             Self::Marched(_) => "sphere tracing",
@@ -80,6 +82,8 @@ pub struct Marched {
     pub gradient_wide: Option<Closure<Dual<F64x32, 1>>>,
     /// The gradient of a field with graphs over wide lanes, once it was asked for; none where that would be too large.
     gradient_graph: OnceLock<Option<Walked<F64x32>>>,
+    /// The combination in closed form, if it has one.
+    pub(super) cut: Option<Cut>,
     /// The combination that can be thinned out, if the field is one.
     pub thicket: Option<Thicket>,
     /// What rays have found against its constant.
@@ -192,6 +196,7 @@ impl Marched {
             gradient_wide,
             gradient_graph: OnceLock::new(),
             thicket: thicket.flatten(),
+            cut: is_thinned.then(|| Cut::of(node)).flatten(),
             region,
             size,
             lipschitz,

@@ -7,6 +7,7 @@
 use super::analytic::{ClosedForm, Crossing};
 use super::beam::Beam;
 use super::bundle::{Bundle, CAPACITY, Clip, Enter, Farthest, WIDTH};
+use super::cut::{Cut, Workshop};
 use super::hierarchy::{BRANCHES, Boxes};
 use super::inclines::{Derivatives, Gradient};
 use super::newton::Newton;
@@ -47,6 +48,7 @@ pub(super) struct Scratch {
     found: Vec<Found>,
     /// Rays with hits whose gradients are still to be found.
     fresh: Vec<u32>,
+    shop: Workshop,
 }
 
 thread_local! {
@@ -86,6 +88,7 @@ impl World {
                 rays: Vec::new(),
                 found: Vec::new(),
                 fresh: Vec::new(),
+                shop: Workshop::default(),
             })
         });
         let mut numbers: Vec<u32> = (0..rays.len() as u32).collect();
@@ -234,6 +237,13 @@ impl World {
             is_endless: marched.is_endless(),
             any,
         };
+        let mut is_hit = false;
+        if let Some(cut) = &marched.cut {
+            is_hit |= self.cut(cut, number, beam, any, scratch);
+            if scratch.rays.is_empty() {
+                return is_hit;
+            }
+        }
         let rays = std::mem::take(&mut scratch.rays);
         let packets = rays.len().div_ceil(WIDTH);
         for (k, rays) in rays.chunks(WIDTH).enumerate() {
@@ -246,7 +256,6 @@ impl World {
             any,
             rules,
         };
-        let mut is_hit = false;
         if marched.is_sheet || marched.slope.is_some() {
             for k in 0..packets {
                 let packet = &mut *scratch.packets[k];
@@ -279,6 +288,28 @@ impl World {
                 scratch.bundle.evaluations[ray] += packet.evaluations[lane] as u32;
             }
         }
+        is_hit
+    }
+
+    /// Takes the hits of rays with a combination in closed form; leaves those about which nothing was said.
+    fn cut(&self, cut: &Cut, number: u32, beam: &Beam, any: bool, scratch: &mut Scratch) -> bool {
+        let Scratch {
+            bundle, rays, shop, ..
+        } = scratch;
+        cut.find(bundle, rays, beam, self.level, shop);
+        let mut is_hit = false;
+        for found in &shop.found {
+            let ray = found.ray as usize;
+            let crossing = Crossing {
+                t: found.t,
+                error: found.error,
+            };
+            if found.t <= bundle.limit[ray] && bundle.offer(ray, crossing, number, any) {
+                is_hit = true;
+                (0..3).for_each(|axis| bundle.gradient[axis][ray] = found.normal[axis]);
+            }
+        }
+        std::mem::swap(rays, &mut shop.open);
         is_hit
     }
 

@@ -1,0 +1,434 @@
+//! Hard combinations of convex solids in closed form: where a ray enters what is left of solids that are united, cut with one
+//! another, or taken from one another.
+//!
+//! Each solid has one chord on a ray. A ray at `t` is inside of a combination, or goes on to the next place where it is: in a
+//! union the nearest of its children's; in an intersection, and with what is taken away turned inside out, to where no child
+//! sends it any farther. So rooms, which are concave, are left by the exits of what was taken away. Where two surfaces lie
+//! so close on a ray that rounding decides their order, nothing is said, and the ray is marched. Sources: Roth 1982 for chords
+//! of combinations; Whitted rays that start on a surface leave it first.
+
+#![allow(
+    clippy::needless_range_loop,
+    reason = "lanes run through many arrays side by side"
+)]
+
+use super::beam::Beam;
+use super::bundle::{Bundle, WIDTH, place};
+use super::chord::{Chord, Convex, Solid};
+use super::hierarchy::{BRANCHES, Boxes};
+use super::packet::Lane;
+use crate::catalogue::{Bounds, Combination, Operation};
+use crate::field::{Level, Task, run_at};
+use crate::scene::{Node, Shape};
+use glam::DVec3;
+
+/// More passes over the children of a combination are not made; a ray that would need them is marched.
+const MOST_PASSES: usize = 64;
+
+/// How solids are combined.
+enum Tree {
+    Solid(usize),
+    /// What is in any of them.
+    Any(Vec<Tree>),
+    /// What is in all of them.
+    All(Vec<Tree>),
+    /// What is in the first and in none of the others.
+    Less(Vec<Tree>),
+}
+
+/// A solid of a combination.
+struct Leaf {
+    solid: Convex,
+    /// 1 where it is added, -1 where it is taken away.
+    sign: f64,
+}
+
+/// A hard combination of convex solids.
+pub(super) struct Cut {
+    tree: Tree,
+    leaves: Vec<Leaf>,
+    /// The boxes of the leaves, as far as they lie in the combination's.
+    boxes: Vec<Boxes>,
+}
+
+/// The chords of 32 rays.
+#[derive(Clone, Copy)]
+struct Chords {
+    enter: Lane,
+    leave: Lane,
+    error: Lane,
+}
+
+/// What became of a ray.
+pub(super) struct Found {
+    /// The ray's number in the bundle.
+    pub ray: u32,
+    /// Where it hits; infinite where it does not.
+    pub t: f64,
+    /// A bound of the error.
+    pub error: f64,
+    /// The outward normal.
+    pub normal: DVec3,
+}
+
+/// Memory that is used again and again.
+#[derive(Default)]
+pub(super) struct Workshop {
+    /// Which leaves the beam may meet.
+    is_met: Vec<bool>,
+    met: Vec<u32>,
+    chords: Vec<Chords>,
+    /// What rays found.
+    pub found: Vec<Found>,
+    /// The rays about which nothing is said.
+    pub open: Vec<u32>,
+}
+
+impl Cut {
+    /// The combination that a node is; none if it is no combination, is blended, or has a leaf without a closed form.
+    pub fn of(node: &Node) -> Option<Self> {
+        let mut leaves = Vec::new();
+        let mut bounds: Vec<Bounds> = Vec::new();
+        let tree = tree(node, 1.0, &mut |solid, own, sign| {
+            leaves.push(Leaf { solid, sign });
+            // With room for rounding, so that no surface lies on its border.
+            let own = own.intersect(node.bounds());
+            bounds.push(own.inflate(1e-9 * own.finite_size()));
+        })?;
+        let is_combined = !matches!(tree, Tree::Solid(_));
+        let boxes = |some: &[Bounds]| Boxes::new(some.iter().copied());
+        is_combined.then(|| Self {
+            tree,
+            leaves,
+            boxes: bounds.chunks(BRANCHES).map(boxes).collect(),
+        })
+    }
+
+    /// Finds the hits of these rays of a bundle.
+    pub fn find(
+        &self,
+        bundle: &Bundle,
+        rays: &[u32],
+        beam: &Beam,
+        level: Level,
+        shop: &mut Workshop,
+    ) {
+        shop.found.clear();
+        shop.open.clear();
+        shop.met.clear();
+        shop.is_met.clear();
+        for boxes in &self.boxes {
+            let entered = beam.enters(boxes, f64::INFINITY, level);
+            shop.is_met.extend(entered.map(|t| t < f64::INFINITY));
+        }
+        let is_met = |leaf: &usize| shop.is_met[*leaf];
+        shop.met.extend(
+            (0..self.leaves.len())
+                .filter(is_met)
+                .map(|leaf| leaf as u32),
+        );
+        let nothing = Chords {
+            enter: [f64::INFINITY; WIDTH],
+            leave: [f64::INFINITY; WIDTH],
+            error: [0.0; WIDTH],
+        };
+        shop.chords.resize(self.leaves.len(), nothing);
+        for rays in rays.chunks(WIDTH) {
+            self.find_some(bundle, rays, level, shop);
+        }
+    }
+
+    /// As [`Cut::find`], for up to 32 rays.
+    fn find_some(&self, bundle: &Bundle, rays: &[u32], level: Level, shop: &mut Workshop) {
+        for leaf in &shop.met {
+            let chords = &mut shop.chords[*leaf as usize];
+            match &self.leaves[*leaf as usize].solid {
+                Convex::Ball(solid) => run_at(
+                    level,
+                    Cross {
+                        bundle,
+                        rays,
+                        solid,
+                        chords,
+                    },
+                ),
+                Convex::HalfSpace(solid) => run_at(
+                    level,
+                    Cross {
+                        bundle,
+                        rays,
+                        solid,
+                        chords,
+                    },
+                ),
+                Convex::Brick(solid) => run_at(
+                    level,
+                    Cross {
+                        bundle,
+                        rays,
+                        solid,
+                        chords,
+                    },
+                ),
+                Convex::Bar(solid) => run_at(
+                    level,
+                    Cross {
+                        bundle,
+                        rays,
+                        solid,
+                        chords,
+                    },
+                ),
+            }
+        }
+        let walk = Walk {
+            chords: &shop.chords,
+            is_met: &shop.is_met,
+            level,
+        };
+        let zero = [0.0; WIDTH];
+        let (mut into, mut out_of) = (zero, zero);
+        let is_done = walk.go(&self.tree, &mut into, false);
+        // Rays that start inside look for the way out.
+        let starts_inside = (0..rays.len()).any(|lane| into[lane] == 0.0);
+        let is_done = is_done && (!starts_inside || walk.go(&self.tree, &mut out_of, true));
+        for (lane, ray) in rays.iter().enumerate() {
+            let t = if into[lane] == 0.0 {
+                out_of[lane]
+            } else {
+                into[lane]
+            };
+            if t == f64::INFINITY && is_done {
+                continue;
+            }
+            match self.surface(t, lane, shop).filter(|_| is_done) {
+                Some((leaf, error)) => {
+                    let i = *ray as usize;
+                    let p = place(&bundle.origin, i) + place(&bundle.direction, i) * t;
+                    let Leaf { solid, sign } = &self.leaves[leaf];
+                    shop.found.push(Found {
+                        ray: *ray,
+                        t,
+                        error,
+                        normal: solid.normal(p) * *sign,
+                    });
+                }
+                None => shop.open.push(*ray),
+            }
+        }
+    }
+
+    /// The one leaf whose surface a ray meets at `t`, with the error of that; none where others are as near as rounding.
+    fn surface(&self, t: f64, lane: usize, shop: &Workshop) -> Option<(usize, f64)> {
+        let mut found = None;
+        for leaf in &shop.met {
+            let chords = &shop.chords[*leaf as usize];
+            for end in [chords.enter[lane], chords.leave[lane]] {
+                if end == t && found.is_none() {
+                    found = Some((*leaf as usize, chords.error[lane]));
+                }
+            }
+        }
+        let (leaf, error) = found?;
+        let mut near = 0;
+        for other in &shop.met {
+            let chords = &shop.chords[*other as usize];
+            let margin = 4.0 * (error + chords.error[lane]);
+            for end in [chords.enter[lane], chords.leave[lane]] {
+                near += usize::from((end - t).abs() <= margin);
+            }
+        }
+        (near == 1).then_some((leaf, error))
+    }
+}
+
+/// The combination that a node is, with each of its leaves told to `leaf`.
+fn tree(node: &Node, sign: f64, leaf: &mut dyn FnMut(Convex, Bounds, f64)) -> Option<Tree> {
+    let mut count = 0;
+    numbered(node, sign, &mut |solid, bounds, sign| {
+        leaf(solid, bounds, sign);
+        count += 1;
+        count - 1
+    })
+}
+
+fn numbered(
+    node: &Node,
+    sign: f64,
+    leaf: &mut dyn FnMut(Convex, Bounds, f64) -> usize,
+) -> Option<Tree> {
+    if let Some((solid, bounds)) = Convex::of(node) {
+        return Some(Tree::Solid(leaf(solid, bounds, sign)));
+    }
+    let Shape::Combination(Combination { operation, blend }, children) = node.shape() else {
+        return None;
+    };
+    if !blend.is_hard() {
+        return None;
+    }
+    let is_less = *operation == Operation::Difference;
+    let mut trees = Vec::with_capacity(children.len());
+    for (k, child) in children.iter().enumerate() {
+        let sign = if is_less && k > 0 { -sign } else { sign };
+        trees.push(numbered(child, sign, leaf)?);
+    }
+    match operation {
+        Operation::Union => Some(Tree::Any(trees)),
+        Operation::Intersection => Some(Tree::All(trees)),
+        Operation::Difference => Some(Tree::Less(trees)),
+        Operation::Joint => None,
+    }
+}
+
+/// Finds the chords of a solid on up to 32 rays.
+struct Cross<'a, S> {
+    bundle: &'a Bundle,
+    rays: &'a [u32],
+    solid: &'a S,
+    chords: &'a mut Chords,
+}
+
+impl<S: Solid> Task for Cross<'_, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let mut lines = [[0.0; WIDTH]; 6];
+        for lane in 0..WIDTH {
+            // Lanes without a ray repeat the first.
+            let ray = self.rays[if lane < self.rays.len() { lane } else { 0 }] as usize;
+            for axis in 0..3 {
+                lines[axis][lane] = self.bundle.origin[axis][ray];
+                lines[3 + axis][lane] = self.bundle.direction[axis][ray];
+            }
+        }
+        let [a, b, c, d, e, f] = &lines;
+        for lane in 0..WIDTH {
+            let origin = DVec3::new(a[lane], b[lane], c[lane]);
+            let direction = DVec3::new(d[lane], e[lane], f[lane]);
+            let Chord {
+                enter,
+                leave,
+                error,
+            } = self.solid.chord(origin, direction);
+            // A ray that starts on a surface leaves it first.
+            let start = 2.0 * error;
+            let is_behind = leave <= start;
+            let enter = if enter <= start {
+                f64::NEG_INFINITY
+            } else {
+                enter
+            };
+            self.chords.enter[lane] = if is_behind { f64::INFINITY } else { enter };
+            self.chords.leave[lane] = if is_behind { f64::INFINITY } else { leave };
+            self.chords.error[lane] = error;
+        }
+    }
+}
+
+/// A way along 32 rays through a combination.
+struct Walk<'a> {
+    chords: &'a [Chords],
+    is_met: &'a [bool],
+    level: Level,
+}
+
+impl Walk<'_> {
+    /// Goes on from `t` to the next place, which may be here, that is outside of a combination, or else inside. Gives whether
+    /// that was found; where there is none, `t` is infinite.
+    fn go(&self, tree: &Tree, t: &mut Lane, to_outside: bool) -> bool {
+        match tree {
+            Tree::Solid(leaf) => {
+                let leaf = *leaf;
+                if self.is_met[leaf] {
+                    let chords = &self.chords[leaf];
+                    run_at(
+                        self.level,
+                        Go {
+                            chords,
+                            t,
+                            to_outside,
+                        },
+                    );
+                } else if !to_outside {
+                    *t = [f64::INFINITY; WIDTH];
+                }
+                true
+            }
+            Tree::Any(children) if to_outside => self.past_all(children, t, |_| true),
+            Tree::Any(children) => self.nearest(children, t, |_| false),
+            Tree::All(children) if to_outside => self.nearest(children, t, |_| true),
+            Tree::All(children) => self.past_all(children, t, |_| false),
+            Tree::Less(children) if to_outside => self.nearest(children, t, |k| k == 0),
+            Tree::Less(children) => self.past_all(children, t, |k| k > 0),
+        }
+    }
+
+    /// The nearest of the places that the children give.
+    fn nearest(&self, children: &[Tree], t: &mut Lane, to_outside: impl Fn(usize) -> bool) -> bool {
+        let from = *t;
+        *t = [f64::INFINITY; WIDTH];
+        children.iter().enumerate().all(|(k, child)| {
+            let mut own = from;
+            let is_done = self.go(child, &mut own, to_outside(k));
+            for lane in 0..WIDTH {
+                t[lane] = if own[lane] < t[lane] {
+                    own[lane]
+                } else {
+                    t[lane]
+                };
+            }
+            is_done
+        })
+    }
+
+    /// The first place from which no child goes any farther.
+    fn past_all(
+        &self,
+        children: &[Tree],
+        t: &mut Lane,
+        to_outside: impl Fn(usize) -> bool,
+    ) -> bool {
+        for _ in 0..MOST_PASSES {
+            let before = *t;
+            for (k, child) in children.iter().enumerate() {
+                if !self.go(child, t, to_outside(k)) {
+                    return false;
+                }
+            }
+            if *t == before {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+/// Goes on from `t` to the next place that is outside of a solid, or else inside.
+struct Go<'a> {
+    chords: &'a Chords,
+    t: &'a mut Lane,
+    to_outside: bool,
+}
+
+impl Task for Go<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let (enter, leave) = (&self.chords.enter, &self.chords.leave);
+        if self.to_outside {
+            for lane in 0..WIDTH {
+                let t = self.t[lane];
+                let is_inside = (t >= enter[lane]) & (t < leave[lane]);
+                self.t[lane] = if is_inside { leave[lane] } else { t };
+            }
+        } else {
+            for lane in 0..WIDTH {
+                let t = self.t[lane];
+                let here = if t < leave[lane] { t } else { f64::INFINITY };
+                self.t[lane] = if t < enter[lane] { enter[lane] } else { here };
+            }
+        }
+    }
+}

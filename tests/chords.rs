@@ -1,0 +1,188 @@
+//! Hard combinations of solids with closed forms: what their chords say must be what the reference finds, which knows nothing
+//! but fields.
+
+mod rays;
+
+use fieldstone::catalogue::*;
+use fieldstone::scene::{Method, Node, Settings};
+use fieldstone::trace::{Outcome, Ray, Verdict, Visibility, World};
+use glam::DVec3;
+use rays::{random, ray};
+use std::sync::Arc;
+
+fn number(seed: u64, k: u64) -> f64 {
+    random(seed.wrapping_mul(1_000_003).wrapping_add(k))
+}
+
+fn modified(modifier: AnyModifier, child: Arc<Node>) -> Arc<Node> {
+    Node::modifier(modifier, child).expect("a valid modifier")
+}
+
+fn combined(operation: Operation, children: Vec<Arc<Node>>) -> Arc<Node> {
+    let blend = AnyBlend::Hard(Hard::new());
+    Node::combination(Combination { operation, blend }, children).expect("a valid combination")
+}
+
+/// A solid with a closed form, turned, scaled and moved.
+fn leaf(seed: u64) -> Arc<Node> {
+    let x = |k: u64| number(seed, k);
+    let primitive = match seed % 7 {
+        0 | 1 => AnyPrimitive::Sphere(Sphere::new(0.2 + 0.6 * x(0))),
+        2 | 3 => AnyPrimitive::Cuboid(Cuboid::new([0.4 + x(0), 0.4 + x(1), 0.4 + x(2)], 0.0)),
+        4 => AnyPrimitive::Cylinder(Cylinder::new(0.1 + 0.4 * x(0), 0.4 + x(1), 0.0)),
+        5 => AnyPrimitive::Cylinder(Cylinder::new(0.1 + 0.3 * x(0), f64::INFINITY, 0.0)),
+        _ => AnyPrimitive::Plane(Plane::new([x(0) - 0.5, x(1) - 0.5, 0.7], x(2) - 0.2)),
+    };
+    let axis = [x(11) - 0.5, x(12) - 0.5, 0.3];
+    let turn = AnyModifier::Rotate(Rotate::new(6.0 * x(10), axis, 0.0, 0.0, 0.0));
+    let scale = AnyModifier::Scale(Scale::new([0.7 + 0.6 * x(20); 3]));
+    let place = [0, 1, 2].map(|k| 1.6 * x(30 + k) - 0.8);
+    let shift = AnyModifier::Translate(Translate::new(place));
+    let leaf = Node::primitive(primitive).expect("a valid primitive");
+    [turn, scale, shift]
+        .into_iter()
+        .fold(leaf, |node, modifier| modified(modifier, node))
+}
+
+/// A tree of hard operations, so many levels high.
+fn tree(seed: u64, height: u32) -> Arc<Node> {
+    if height == 0 {
+        return leaf(seed);
+    }
+    let operations = [
+        Operation::Union,
+        Operation::Difference,
+        Operation::Intersection,
+        Operation::Difference,
+    ];
+    let count = 2 + (number(seed, 40) * 3.0) as u64;
+    let child = |k: u64| tree(seed.wrapping_mul(31).wrapping_add(k + 1), height - 1);
+    combined(
+        operations[(number(seed, 41) * 4.0) as usize],
+        (0..count).map(child).collect(),
+    )
+}
+
+/// A tree inside of a box, so that it ends somewhere. The outermost operation keeps it in one part.
+fn solid(seed: u64) -> Arc<Node> {
+    let room = Node::primitive(AnyPrimitive::Cuboid(Cuboid::new([2.4, 2.6, 2.8], 0.0)));
+    let height = 1 + (seed % 3) as u32;
+    combined(
+        Operation::Intersection,
+        vec![room.expect("a box"), tree(seed, height)],
+    )
+}
+
+/// Rays from outside and from inside, in all directions.
+fn rays(seed: u64) -> Vec<Ray> {
+    let x = |k: u64| number(seed + 77, k) - 0.5;
+    let some = |k: u64| {
+        let size = if k.is_multiple_of(4) { 2.0 } else { 8.0 };
+        let origin = [0, 1, 2].map(|axis| size * x(6 * k + axis));
+        let target = [0, 1, 2].map(|axis| 2.0 * x(6 * k + 3 + axis));
+        ray(origin, [0, 1, 2].map(|axis| target[axis] - origin[axis]))
+    };
+    (0..64).map(some).collect()
+}
+
+fn found(node: &Arc<Node>, method: Method, rays: &[Ray]) -> Vec<Outcome> {
+    let settings = Settings {
+        method,
+        ..Settings::default()
+    };
+    let world = World::of(std::slice::from_ref(node), &settings).expect("a world");
+    world.nearest(rays, Visibility::All)
+}
+
+#[test]
+fn chords_find_what_the_reference_finds() {
+    let (mut hits, mut asked) = (0, 0);
+    for seed in 0..400u64 {
+        let node = solid(seed);
+        let rays = rays(seed);
+        let auto = found(&node, Method::Auto, &rays);
+        let reference = found(&node, Method::Reference, &rays);
+        for ((ray, a), b) in rays.iter().zip(&auto).zip(&reference) {
+            asked += u64::from(a.evaluations);
+            if b.verdict == Verdict::Unknown {
+                continue;
+            }
+            let what = format!("seed {seed}, {ray:?}: {a:?}, {b:?}");
+            assert_eq!(a.verdict, b.verdict, "{what}");
+            if a.verdict == Verdict::Hit {
+                hits += 1;
+                assert!((a.t - b.t).abs() <= a.error + b.error + 1e-12, "{what}");
+                assert!(a.error < 1e-6, "{what}");
+                assert!(a.normal.dot(b.normal) > 1.0 - 1e-9, "{what}");
+            }
+        }
+    }
+    assert!(hits > 5000, "{hits}");
+    assert!(
+        asked < hits / 10,
+        "fields are asked where rounding decides: {asked}"
+    );
+}
+
+#[test]
+fn what_leaves_a_surface_does_not_meet_it_again() {
+    for seed in 0..200u64 {
+        let node = solid(seed);
+        let rays = rays(seed);
+        for (ray, hit) in rays.iter().zip(found(&node, Method::Auto, &rays)) {
+            if hit.verdict != Verdict::Hit || hit.normal.dot(ray.direction) >= 0.0 {
+                continue;
+            }
+            // Straight away from the surface, and nearly along it.
+            let aside = hit.normal.any_orthonormal_vector();
+            for direction in [hit.normal, (aside + 1e-3 * hit.normal).normalize()] {
+                let away = Ray {
+                    origin: hit.point + hit.normal * (2.0 * hit.error + 1e-14),
+                    direction,
+                    ..*ray
+                };
+                let [auto, reference] = [Method::Auto, Method::Reference]
+                    .map(|method| found(&node, method, std::slice::from_ref(&away))[0]);
+                let is_near = |out: &Outcome| out.verdict == Verdict::Hit && out.t < 1e-6;
+                assert!(
+                    !is_near(&auto) || is_near(&reference),
+                    "seed {seed}, {away:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn coincident_faces_leave_no_skin() {
+    let block = |size: [f64; 3], place: [f64; 3]| {
+        let cuboid = Cuboid::new(size, 0.0);
+        let node = Node::primitive(AnyPrimitive::Cuboid(cuboid)).expect("a box");
+        modified(AnyModifier::Translate(Translate::new(place)), node)
+    };
+    // A slot as deep as the block is high, and turned, so that no number is round.
+    let cut = combined(
+        Operation::Difference,
+        vec![
+            block([1.0, 1.0, 1.0], [0.0; 3]),
+            block([0.5, 1.0, 2.0], [0.1, 0.0, 0.0]),
+        ],
+    );
+    let node = modified(
+        AnyModifier::Rotate(Rotate::new(0.7, [0.3, 0.5, 0.8], 0.0, 0.0, 0.0)),
+        cut,
+    );
+    let down = DVec3::new(0.0, -1.0, 0.0);
+    let outside = |v: DVec3| {
+        let turn = glam::DQuat::from_axis_angle(DVec3::new(0.3, 0.5, 0.8).normalize(), 0.7);
+        turn * v
+    };
+    for k in 0..200 {
+        let x = -0.14 + 0.48 * number(1, k);
+        let z = -0.45 + 0.9 * number(2, k);
+        let away = outside(DVec3::new(x, 3.0, z));
+        let through = ray(away.to_array(), outside(down).to_array());
+        let out = found(&node, Method::Auto, &[through])[0];
+        assert_eq!(out.verdict, Verdict::Miss, "{x}, {z}: {out:?}");
+    }
+}

@@ -97,7 +97,7 @@ fn found(node: &Arc<Node>, method: Method, rays: &[Ray]) -> Vec<Outcome> {
 #[test]
 fn chords_find_what_the_reference_finds() {
     let (mut hits, mut asked) = (0, 0);
-    for seed in 0..400u64 {
+    for seed in 0..160u64 {
         let node = solid(seed);
         let rays = rays(seed);
         let auto = found(&node, Method::Auto, &rays);
@@ -117,7 +117,7 @@ fn chords_find_what_the_reference_finds() {
             }
         }
     }
-    assert!(hits > 5000, "{hits}");
+    assert!(hits > 2000, "{hits}");
     assert!(
         asked < hits / 10,
         "fields are asked where rounding decides: {asked}"

@@ -1,4 +1,4 @@
-//! Hard combinations of convex solids in closed form: where a ray enters what is left of solids that are united, cut with one
+//! Convex solids, and hard combinations of them, in closed form: where a ray enters what is left of solids that are united, cut with one
 //! another, or taken from one another.
 //!
 //! Each solid has one chord on a ray. A ray at `t` is inside of a combination, or goes on to the next place where it is: in a
@@ -43,7 +43,7 @@ struct Leaf {
     sign: f64,
 }
 
-/// A hard combination of convex solids.
+/// A hard combination of convex solids, or one of them.
 pub(super) struct Cut {
     tree: Tree,
     leaves: Vec<Leaf>,
@@ -85,7 +85,7 @@ pub(super) struct Workshop {
 }
 
 impl Cut {
-    /// The combination that a node is; none if it is no combination, is blended, or has a leaf without a closed form.
+    /// The combination that a node is, or the one solid; none if it is blended, or has a leaf without a closed form.
     pub fn of(node: &Node) -> Option<Self> {
         let mut leaves = Vec::new();
         let mut bounds: Vec<Bounds> = Vec::new();
@@ -95,9 +95,8 @@ impl Cut {
             let own = own.intersect(node.bounds());
             bounds.push(own.inflate(1e-9 * own.finite_size()));
         })?;
-        let is_combined = !matches!(tree, Tree::Solid(_));
         let boxes = |some: &[Bounds]| Boxes::new(some.iter().copied());
-        is_combined.then(|| Self {
+        Some(Self {
             tree,
             leaves,
             boxes: bounds.chunks(BRANCHES).map(boxes).collect(),

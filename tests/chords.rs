@@ -7,7 +7,7 @@ use fieldstone::catalogue::*;
 use fieldstone::scene::{Method, Node, Settings};
 use fieldstone::trace::{Outcome, Ray, Verdict, Visibility, World};
 use glam::DVec3;
-use rays::{random, ray};
+use rays::{aimed, random, ray};
 use std::sync::Arc;
 
 fn number(seed: u64, k: u64) -> f64 {
@@ -76,13 +76,13 @@ fn solid(seed: u64) -> Arc<Node> {
 /// Rays from outside and from inside, in all directions.
 fn rays(seed: u64) -> Vec<Ray> {
     let x = |k: u64| number(seed + 77, k) - 0.5;
-    let some = |k: u64| {
-        let size = if k.is_multiple_of(4) { 2.0 } else { 8.0 };
-        let origin = [0, 1, 2].map(|axis| size * x(6 * k + axis));
-        let target = [0, 1, 2].map(|axis| 2.0 * x(6 * k + 3 + axis));
-        ray(origin, [0, 1, 2].map(|axis| target[axis] - origin[axis]))
+    let inside = |k: u64| {
+        let [origin, way] = [0, 3].map(|first| [0, 1, 2].map(|axis| 2.0 * x(6 * k + first + axis)));
+        ray(origin, way)
     };
-    (0..64).map(some).collect()
+    let mut rays = aimed(48, seed << 20);
+    rays.extend((0..16).map(inside));
+    rays
 }
 
 fn found(node: &Arc<Node>, method: Method, rays: &[Ray]) -> Vec<Outcome> {

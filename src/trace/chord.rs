@@ -259,6 +259,19 @@ pub(super) enum Convex {
     Bar(Bar),
 }
 
+/// Evaluates an expression in which the solid inside is bound to a name.
+macro_rules! with_solid {
+    ($any:expr, $bound:ident => $body:expr) => {
+        match $any {
+            $crate::trace::chord::Convex::Ball($bound) => $body,
+            $crate::trace::chord::Convex::HalfSpace($bound) => $body,
+            $crate::trace::chord::Convex::Brick($bound) => $body,
+            $crate::trace::chord::Convex::Bar($bound) => $body,
+        }
+    };
+}
+pub(super) use with_solid;
+
 impl Convex {
     /// The solid of a leaf, with its box; none if it has no closed form.
     pub fn of(node: &Node) -> Option<(Self, Bounds)> {
@@ -297,12 +310,7 @@ impl Convex {
 
     /// The outward unit normal at a point of the surface.
     pub fn normal(&self, p: DVec3) -> DVec3 {
-        match self {
-            Self::Ball(solid) => Solid::normal(solid, p),
-            Self::HalfSpace(solid) => Solid::normal(solid, p),
-            Self::Brick(solid) => Solid::normal(solid, p),
-            Self::Bar(solid) => Solid::normal(solid, p),
-        }
+        with_solid!(self, solid => Solid::normal(solid, p))
     }
 }
 
@@ -352,12 +360,7 @@ mod tests {
             let origin = DVec3::new(x(0) - 0.5, x(1) - 0.5, x(2) - 0.5) * 6.0;
             let target = DVec3::new(x(3) - 0.5, x(4) - 0.5, x(5) - 0.5);
             let direction = (target - origin).normalize();
-            let chord = match solid {
-                Convex::Ball(s) => s.chord(origin, direction),
-                Convex::HalfSpace(s) => s.chord(origin, direction),
-                Convex::Brick(s) => s.chord(origin, direction),
-                Convex::Bar(s) => s.chord(origin, direction),
-            };
+            let chord = with_solid!(&solid, s => s.chord(origin, direction));
             let field = |t: f64| {
                 let p = origin + direction * t;
                 node.evaluate(&Vec3::new(p.x, p.y, p.z))

@@ -14,7 +14,7 @@
 
 use super::beam::Beam;
 use super::bundle::{Bundle, WIDTH, place};
-use super::chord::{Chord, Convex, Solid};
+use super::chord::{Chord, Convex, Solid, with_solid};
 use super::hierarchy::{BRANCHES, Boxes};
 use super::packet::Lane;
 use crate::catalogue::{Bounds, Combination, Operation};
@@ -141,44 +141,9 @@ impl Cut {
     fn find_some(&self, bundle: &Bundle, rays: &[u32], level: Level, shop: &mut Workshop) {
         for leaf in &shop.met {
             let chords = &mut shop.chords[*leaf as usize];
-            match &self.leaves[*leaf as usize].solid {
-                Convex::Ball(solid) => run_at(
-                    level,
-                    Cross {
-                        bundle,
-                        rays,
-                        solid,
-                        chords,
-                    },
-                ),
-                Convex::HalfSpace(solid) => run_at(
-                    level,
-                    Cross {
-                        bundle,
-                        rays,
-                        solid,
-                        chords,
-                    },
-                ),
-                Convex::Brick(solid) => run_at(
-                    level,
-                    Cross {
-                        bundle,
-                        rays,
-                        solid,
-                        chords,
-                    },
-                ),
-                Convex::Bar(solid) => run_at(
-                    level,
-                    Cross {
-                        bundle,
-                        rays,
-                        solid,
-                        chords,
-                    },
-                ),
-            }
+            with_solid!(&self.leaves[*leaf as usize].solid, solid => {
+                run_at(level, Cross { bundle, rays, solid, chords });
+            });
         }
         let walk = Walk {
             chords: &shop.chords,

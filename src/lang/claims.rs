@@ -38,13 +38,14 @@ impl Machine<'_> {
                 continue;
             };
             let shown = regions.get(&Arc::as_ptr(&field)).cloned();
+            let is_shown = shown.is_some();
             let regions = shown.unwrap_or_else(|| vec![Bounds::EVERYWHERE]);
             let at = self.routine(id).claim.as_ref().map(|claim| claim.span);
             let cost = STEPS_A_REGION * regions.len() as u64;
             if at.is_some_and(|at| self.tick(cost, at).is_err()) {
                 return;
             }
-            let mut derived: f64 = 0.0;
+            let (mut derived, mut nearby) = (0.0f64, 0.0f64);
             let mut verdict = Claim::Derived(0.0);
             for region in regions {
                 let effort;
@@ -52,10 +53,11 @@ impl Machine<'_> {
                 if at.is_some_and(|at| self.tick(effort / 2, at).is_err()) {
                     return;
                 }
-                let Claim::Derived(constant) = verdict else {
-                    break;
-                };
-                derived = derived.max(constant);
+                match verdict {
+                    Claim::Derived(constant) => derived = derived.max(constant),
+                    Claim::Nearby(constant) => nearby = nearby.max(constant),
+                    Claim::Refuted(_) | Claim::Jumps(_) => break,
+                }
             }
             let Some(at) = at else { continue };
             let name = &self.routine(id).name.text;
@@ -64,6 +66,10 @@ impl Machine<'_> {
                     self.diagnostics.push(refuted(name, at, claimed, found));
                 }
                 Claim::Jumps(point) => self.diagnostics.push(jumps(name, at, point)),
+                _ if is_shown && nearby > OPEN * claimed => {
+                    self.diagnostics.push(untested(name, at, nearby));
+                }
+                Claim::Nearby(_) => {}
                 Claim::Derived(_) if derived.is_normal() && claimed > LOOSE * derived => {
                     self.diagnostics.push(loose(name, at, claimed, derived));
                 }
@@ -92,6 +98,22 @@ fn open(name: &str, at: Span, claimed: f64, derived: f64) -> Diagnostic {
             written(claimed)
         ))
         .help(format!("be sure, or claim {derived}"))
+}
+
+fn untested(name: &str, at: Span, known: f64) -> Diagnostic {
+    let message = format!(
+        "the claimed Lipschitz constant of `{name}` is only tested within ten units of the origin"
+    );
+    let label = match known.is_finite() {
+        true => format!(
+            "of what lies farther out, ranges only show {}",
+            written(rounded_up(known))
+        ),
+        false => "of what lies farther out, ranges show nothing".into(),
+    };
+    Diagnostic::warning(at, message).label(label).help(
+        "bound what is shown, as in `shape & box(40)`: then the claim is tested in the whole box",
+    )
 }
 
 fn loose(name: &str, at: Span, claimed: f64, derived: f64) -> Diagnostic {

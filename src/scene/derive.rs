@@ -211,6 +211,9 @@ pub enum Claim {
     Jumps([f64; 3]),
     /// No point was found that refutes it; ranges show that this constant holds (infinite where they show none).
     Derived(f64),
+    /// The same, but of an infinite region only the part up to 10 units from the origin was put to the test; this constant
+    /// holds on all of it (infinite where none is known).
+    Nearby(f64),
 }
 
 /// Puts a claim about the slope of a graph on `region` to the test: by samples, by the steepest points that the derivation
@@ -220,7 +223,11 @@ pub fn refute(graph: &Graph, claimed: f64, region: Bounds) -> (Claim, u64) {
     const MOST: u64 = 4096;
     // Large graphs get fewer samples, so that this takes no longer than the derivation of a constant.
     let samples = (MAX_WORK / graph.work().max(1)).clamp(1, MOST);
-    let everywhere = gradient_bound(graph, region);
+    let everywhere = match region.is_finite() {
+        true => gradient_bound(graph, region),
+        false => lipschitz_of_graph(graph, region),
+    };
+    let is_whole = region.is_finite();
     let region = searched(region);
     if region.is_empty() || everywhere <= claimed {
         return (Claim::Derived(everywhere), 0);
@@ -244,7 +251,8 @@ pub fn refute(graph: &Graph, claimed: f64, region: Bounds) -> (Claim, u64) {
         .flatten();
     match jump {
         Some(point) => (Claim::Jumps(point), effort),
-        None => (Claim::Derived(found.bound), effort),
+        None if is_whole => (Claim::Derived(found.bound), effort),
+        None => (Claim::Nearby(everywhere), effort),
     }
 }
 

@@ -197,7 +197,11 @@ fn chart_writes_all_its_forms() {
     assert!(table.contains("| **auto** | 0.100 |"), "{table}");
     let read = |name: &str| std::fs::read(folder.0.join(name)).unwrap();
     assert_eq!(read("chart.md"), table.as_bytes());
-    for name in ["chart.png", "overview.png"] {
+    for name in [
+        "chart.png",
+        "depth-evaluations.png",
+        "wrong-milliseconds.png",
+    ] {
         assert!(read(name).starts_with(b"\x89PNG"), "{name}");
     }
     let svg = String::from_utf8(read("chart.svg")).unwrap();
@@ -237,6 +241,41 @@ fn chart_writes_all_its_forms() {
         csv.starts_with("scene,width,height,method,tolerance,is_default,"),
         "{csv}"
     );
+}
+
+/// A ramp that is three times as steep as claimed where the claim is not tested: rays that come there refute it, and the points
+/// of all methods are ringed. Sphere tracing steps through the ramp, and its point is grey as well.
+#[test]
+fn chart_rings_what_met_a_field_steeper_than_its_constant() {
+    let folder = Folder::new("refuted");
+    let script = "field ramp(p) lipschitz 1 { return p.y - 3 * max(p.x - 12, 0) }
+        show ramp
+        camera { eye: [0, 1, 0], at: [12, 2, 0] }";
+    std::fs::write(folder.0.join("wrong.sdf"), script).unwrap();
+    let arguments = [
+        "chart",
+        "wrong.sdf",
+        "--size",
+        "64x48",
+        "--methods",
+        "auto,sphere",
+        "--tolerances",
+        "0.1",
+        "--rounds",
+        "1",
+        "--quiet",
+    ];
+    folder.run(&arguments, 0);
+    let chart = std::fs::read(folder.0.join("chart.json")).unwrap();
+    let chart: Value = serde_json::from_slice(&chart).unwrap();
+    for point in chart["scenes"][0]["points"].as_array().unwrap() {
+        assert!(point["refuted"].as_u64().unwrap() > 0, "{point}");
+        let missed = point["errors"]["false_misses"].as_u64().unwrap();
+        assert_eq!(missed > 0, point["method"] == "sphere", "{point}");
+    }
+    let svg = std::fs::read_to_string(folder.0.join("chart.svg")).unwrap();
+    assert!(svg.contains("stroke=\"#C80028\"") && svg.contains("a constant refuted"));
+    assert!(svg.contains("fill=\"#B2B2B8\"") && svg.contains("missed surfaces"));
 }
 
 /// Hart's hits are near a surface, not on it: the finer the tolerance, the smaller the error and the more the evaluations.
@@ -286,7 +325,30 @@ fn chart_refuses_what_makes_no_sense() {
     assert!(err.contains("`missing`"), "{err}");
     folder.run(&["chart", "scene.sdf", "--tolerances", "0"], 2);
     folder.run(&["chart", "scene.sdf", "--errors", "beauty"], 2);
+    for (option, value, words) in [
+        ("--tolerances", "", "is not a number"),
+        ("--tolerances", "1,,2", "is not a number"),
+        ("--methods", "", "a value is required"),
+        ("--methods", "magic", "possible values"),
+        ("--size", "0x9", "the width must be a whole number"),
+        ("--rounds", "0", "is not in 1"),
+        ("--study", "magic", "possible values"),
+    ] {
+        let [_, err] = folder.run(&["chart", "scene.sdf", option, value], 2);
+        assert!(err.contains(words), "{option} {value}: {err}");
+    }
+    let [_, err] = folder.run(&["chart", "missing.sdf"], 1);
+    assert!(err.contains("cannot read `missing.sdf`"), "{err}");
+    let [_, err] = folder.run(&["chart", "scene.sdf", "--study", "grazing"], 2);
+    assert!(err.contains("without scenes"), "{err}");
     assert_eq!(std::fs::read_dir(&folder.0).unwrap().count(), 1);
+    std::fs::write(folder.0.join("empty.sdf"), "let _x = 1").unwrap();
+    let [_, err] = folder.run(&["chart", "empty.sdf"], 1);
+    assert!(
+        err.ends_with("error: `empty.sdf` shows nothing that rays could find\n"),
+        "{err}"
+    );
+    assert_eq!(std::fs::read_dir(&folder.0).unwrap().count(), 2);
 }
 
 /// The counts of each method add up, to the last step.
@@ -411,7 +473,7 @@ fn studies_are_charts_of_their_own() {
             "{ending}"
         );
     }
-    for study in ["samples", "constants"] {
+    for study in ["samples", "constants", "precision"] {
         let [_, err] = folder.run(&["chart", "--study", study], 2);
         assert!(err.contains("which scenes?"), "{err}");
     }

@@ -1,6 +1,6 @@
 //! `fieldstone chart`: speed against accuracy.
 
-use super::chart_panels::{Measured, Metric, Work, chart};
+use super::chart_panels::{Kind, Measured, Metric, Work, chart};
 use super::chart_tables::{csv, json, markdown};
 use super::console::{answer, say_line};
 use super::failure::Failure;
@@ -18,12 +18,12 @@ use std::path::{Path, PathBuf};
 const AFTER_HELP: &str = "\
 Every method traces the camera's rays of each scene at each tolerance; its hits are compared with those of `--method \
 reference`, and its times are the smallest of interleaved rounds on one thread, with the spread. The files chart.svg, \
-chart.png, chart.csv, chart.json and chart.md go to the folder of -o; the table is printed, too. Of several kinds of panels, the \
-first is drawn alone as well, as overview.svg and overview.png.
+chart.png, chart.csv, chart.json and chart.md go to the folder of -o; the table is printed, too. Of several kinds of panels, each \
+is drawn alone as well, as depth-evaluations.svg, depth-evaluations.png and so on.
 
 A point is a method at a tolerance. Down and left is good: few evaluations, small errors. The band joins the points that \
 no other point beats on both axes. Grey points missed surfaces: they are fast because they are wrong. Crossed ones have rays \
-that ended without an answer. Errors:
+that ended without an answer; ringed ones met a field steeper than its Lipschitz constant. Errors:
 
   depth      the error of depth that 99 % of the hits don't exceed, in widths of a pixel
   depth-max  the largest error of depth, in widths of a pixel
@@ -34,9 +34,10 @@ that ended without an answer. Errors:
 With --study, another chart is drawn instead, and its files are named after it:
 
   grazing     steps towards a plane against the angle, with the closed form for Hart's steps
-  primitives  time against the number of primitives, from 1 to 10 000
-  constants   wrong rays and work against a factor on every Lipschitz constant (needs scenes)
-  distance    errors against the distance of everything from the origin
+  primitives  time against the number of primitives, from 1 to 10 000, with and without pruning
+  constants   wrong rays, evaluations and time against a factor on every Lipschitz constant (needs scenes)
+  distance    errors against the distance of everything from the origin and against its size, in f64 and in f32
+  precision   errors of f32 and of f64 against the tolerance (needs scenes)
   gradients   errors of normals by dual numbers, central and tetrahedral differences
   samples     errors of pictures against the number of samples a pixel (needs scenes)
 
@@ -125,11 +126,25 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         ("chart.md", markdown(&measured).into_bytes()),
     ];
     let names: Vec<String> = measured.iter().map(Measured::name).collect();
-    let all = chart(&measured, &arguments.errors, &arguments.work);
-    draw(arguments, &folder, "chart", &all, names.join(" "))?;
-    if arguments.errors.len() * arguments.work.len() > 1 {
-        let overview = chart(&measured, &arguments.errors[..1], &arguments.work[..1]);
-        draw(arguments, &folder, "overview", &overview, names.join(" "))?;
+    let mut kinds = Kind::all(&arguments.errors, &arguments.work);
+    let mut seen = Vec::new();
+    kinds.retain(|kind| {
+        !seen.contains(kind) && {
+            seen.push(*kind);
+            true
+        }
+    });
+    let source = names.join(" ");
+    draw(
+        arguments,
+        &folder,
+        "chart",
+        &chart(&measured, &kinds),
+        &source,
+    )?;
+    for kind in kinds.iter().filter(|_| kinds.len() > 1) {
+        let alone = chart(&measured, std::slice::from_ref(kind));
+        draw(arguments, &folder, &kind.name(), &alone, &source)?;
     }
     for (name, bytes) in files {
         write(arguments, &folder.join(name), &bytes)?;
@@ -141,9 +156,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 fn run_study(arguments: &Arguments, study: Study, folder: &Path) -> Result<(), Failure> {
     let mut scenes = Vec::new();
     arguments.scripts.each(|path, loaded| {
-        let mut scene = loaded.scene;
-        scene.settings.size = size(arguments, &scene.settings);
-        compile(&scene)?;
+        let scene = prepared(arguments, path, loaded.scene)?;
         scenes.push((study::name(path), scene));
         Ok(())
     })?;
@@ -153,13 +166,7 @@ fn run_study(arguments: &Arguments, study: Study, folder: &Path) -> Result<(), F
         rounds: usize::from(arguments.rounds),
     };
     let result = study.carry_out(&plan)?;
-    draw(
-        arguments,
-        folder,
-        study.name(),
-        &result.chart,
-        String::new(),
-    )?;
+    draw(arguments, folder, study.name(), &result.chart, "")?;
     write(
         arguments,
         &folder.join(study.name()).with_extension("csv"),
@@ -206,10 +213,21 @@ fn settings(arguments: &Arguments, settings: &Settings) -> Vec<Setting> {
     list
 }
 
-fn measure(arguments: &Arguments, path: &Path, mut scene: Scene) -> Result<Measured, Failure> {
+/// The scene at the size that is charted; what can't be traced is said shape by shape.
+fn prepared(arguments: &Arguments, path: &Path, mut scene: Scene) -> Result<Scene, Failure> {
+    if scene.shown.is_empty() {
+        let path = path.display();
+        return Err(Failure::Other(format!(
+            "`{path}` shows nothing that rays could find"
+        )));
+    }
     scene.settings.size = size(arguments, &scene.settings);
-    // What can't be traced is said here, shape by shape.
     compile(&scene)?;
+    Ok(scene)
+}
+
+fn measure(arguments: &Arguments, path: &Path, scene: Scene) -> Result<Measured, Failure> {
+    let scene = prepared(arguments, path, scene)?;
     let settings = settings(arguments, &scene.settings);
     if !arguments.quiet {
         let [width, height] = scene.settings.size;
@@ -236,12 +254,12 @@ fn draw(
     folder: &Path,
     name: &str,
     chart: &Chart,
-    source: String,
+    source: &str,
 ) -> Result<(), Failure> {
     let vector = output::chart::svg(chart).map_err(Failure::Other)?;
     let image = output::chart::pixels(chart).map_err(Failure::Other)?;
     let metadata = Metadata {
-        source,
+        source: source.into(),
         ..Metadata::default()
     };
     let picture =

@@ -30,6 +30,7 @@ mod study;
 mod study_constants;
 mod study_counts;
 mod study_errors;
+mod study_precision;
 mod table;
 mod test;
 mod trace;

@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::script::described;
 use super::table::{self, Cell};
-use super::{study_constants, study_counts, study_errors};
+use super::{study_constants, study_counts, study_errors, study_precision};
 use crate::output::chart::{Axis, Chart, Panel, Point, Scale, Series};
 use crate::output::{self, short};
 use crate::scene::{Fault, Method, Scene};
@@ -15,12 +15,14 @@ use std::path::Path;
 pub enum Study {
     /// Steps towards a plane against the angle
     Grazing,
-    /// Time against the number of primitives
+    /// Time against the number of primitives, with and without pruning
     Primitives,
     /// Wrong rays and work against a factor on every Lipschitz constant
     Constants,
-    /// Errors against the distance of everything from the origin
+    /// Errors against the distance of everything from the origin and against its size, in f64 and in f32
     Distance,
+    /// Errors of f32 and of f64 against the tolerance
+    Precision,
     /// Errors of normals by dual numbers and by differences
     Gradients,
     /// Errors of pictures against samples a pixel
@@ -53,28 +55,41 @@ impl Study {
             Self::Primitives => "primitives",
             Self::Constants => "constants",
             Self::Distance => "distance",
+            Self::Precision => "precision",
             Self::Gradients => "gradients",
             Self::Samples => "samples",
         }
     }
 
+    /// Whether it is made of the scenes that are named.
+    fn needs_scenes(self) -> bool {
+        matches!(self, Self::Constants | Self::Precision | Self::Samples)
+    }
+
     /// Measures and draws.
     ///
     /// # Errors
-    /// If scenes are lacking, or a shape can't be traced.
+    /// If scenes are lacking, or named in vain, or a shape can't be traced.
     pub fn carry_out(self, plan: &Plan) -> Result<Findings, Failure> {
         let fault = |fault: Fault| Failure::Other(described(&fault, None));
-        if matches!(self, Self::Constants | Self::Samples) && plan.scenes.is_empty() {
+        if self.needs_scenes() && plan.scenes.is_empty() {
             let name = self.name();
             return Err(Failure::Usage(format!(
                 "which scenes? Write `fieldstone chart scene.sdf --study {name}`"
+            )));
+        }
+        if !self.needs_scenes() && !plan.scenes.is_empty() {
+            let name = self.name();
+            return Err(Failure::Usage(format!(
+                "the study `{name}` has shapes of its own; write `fieldstone chart --study {name}` without scenes"
             )));
         }
         match self {
             Self::Grazing => study_counts::grazing(plan).map_err(fault),
             Self::Primitives => study_counts::primitives(plan).map_err(fault),
             Self::Constants => study_constants::constants(plan).map_err(fault),
-            Self::Distance => study_errors::distance(plan).map_err(fault),
+            Self::Distance => study_precision::distance(plan).map_err(fault),
+            Self::Precision => study_precision::precision(plan).map_err(fault),
             Self::Gradients => study_errors::gradients().map_err(fault),
             Self::Samples => study_errors::samples(plan).map_err(fault),
         }
@@ -130,12 +145,12 @@ impl Findings {
             places.dedup();
             let value = |series: &Series, x: f64| {
                 let point = series.points.iter().find(|p| p.at[0] == x);
-                point.map_or(String::new(), |p| short(p.at[1]))
+                point.map_or(String::new(), |p| figure(p.at[1]))
             };
             let rows: Vec<Vec<String>> = places
                 .iter()
                 .map(|x| {
-                    std::iter::once(short(*x))
+                    std::iter::once(figure(*x))
                         .chain(panel.series.iter().map(|s| value(s, *x)))
                         .collect()
                 })
@@ -144,6 +159,15 @@ impl Findings {
             text.push('\n');
         }
         text
+    }
+}
+
+/// A figure of a table; what is infinite is the error of what found nothing.
+fn figure(x: f64) -> String {
+    match x {
+        f64::INFINITY => "none found".into(),
+        x if x.abs() >= 1e6 => format!("{x:.1e}"),
+        x => short(x),
     }
 }
 

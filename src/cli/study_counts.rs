@@ -2,11 +2,8 @@
 
 use super::chart_panels::series_of;
 use super::study::{Findings, Plan, single};
-use crate::catalogue::{
-    AnyBlend, AnyModifier, AnyPrimitive, Combination, Cuboid, Operation, Plane, Sphere, Torus,
-    Translate,
-};
-use crate::output::chart::{Line, Point, Scale, Series};
+use crate::catalogue::{AnyModifier, AnyPrimitive, Cuboid, Plane, Sphere, Torus, Translate};
+use crate::output::chart::{Axis, Chart, Line, Panel, Point, Scale, Series};
 use crate::render::{Hits, Spread};
 use crate::scene::{Camera, Fault, Method, Node, Scene, Settings};
 use crate::trace::{Footprint, Ray, Visibility, World};
@@ -80,12 +77,91 @@ fn steps(world: &World, degrees: f64) -> u32 {
 const NUMBERS: [u32; 5] = [1, 10, 100, 1000, 10_000];
 
 /// The picture in which the camera's rays are timed.
-const SIZE: [u32; 2] = [160, 90];
+const SIZE: [u32; 2] = [96, 54];
 
 /// A run that takes longer than this, in milliseconds, is not repeated, and no larger one is tried.
-const LONG: f64 = 4000.0;
+const LONG: f64 = 3000.0;
 
-/// Time against the number of primitives.
+/// A method with or without pruning, and what was measured of it for each number of primitives.
+struct Way {
+    method: Method,
+    is_pruned: bool,
+    times: Vec<Vec<f64>>,
+    /// Primitives evaluated a ray.
+    work: Vec<f64>,
+}
+
+impl Way {
+    /// The world of a scene.
+    fn world(&self, scene: &Scene) -> Result<World, Fault> {
+        let settings = Settings {
+            method: self.method,
+            ..scene.settings
+        };
+        if self.is_pruned {
+            World::of(&scene.shown, &settings)
+        } else {
+            World::unpruned(&scene.shown, &settings)
+        }
+    }
+
+    /// Whether this number of primitives, or a smaller one, took too long for another run.
+    fn is_tired(&self, number: usize) -> bool {
+        self.times[..=number].iter().flatten().any(|t| *t > LONG)
+    }
+
+    /// Times the rays of a scene, the one of that number, if that is not too much.
+    fn run(&mut self, number: usize, scene: &Scene) -> Result<(), Fault> {
+        if self.is_tired(number) {
+            return Ok(());
+        }
+        let world = self.world(scene)?;
+        let hits = Hits::of(scene, &world, 1);
+        self.times[number].push(hits.milliseconds());
+        if self.work.len() == number {
+            // A part that is not pruned evaluates all primitives.
+            let whole = f64::from(NUMBERS[number]) / world.parts() as f64;
+            self.work.push(hits.evaluations() * whole);
+        }
+        Ok(())
+    }
+
+    /// The series of this way with these points.
+    fn series(&self, points: Vec<Point>) -> Series {
+        let pruned = series_of(self.method, points);
+        if self.is_pruned {
+            return pruned;
+        }
+        Series {
+            name: format!("{}, unpruned", pruned.name),
+            // The same colour with other marks.
+            style: pruned.style + 10,
+            ..pruned
+        }
+    }
+
+    fn timed(&self) -> Series {
+        let point = |(n, times): (&u32, &Vec<f64>)| {
+            let spread = Spread::of(times.iter().copied())?;
+            Some(Point {
+                upper: Some(spread.upper),
+                ..Point::new(f64::from(*n), spread.minimum)
+            })
+        };
+        self.series(NUMBERS.iter().zip(&self.times).filter_map(point).collect())
+    }
+
+    fn counted(&self) -> Series {
+        let points = NUMBERS.iter().zip(&self.work);
+        self.series(
+            points
+                .map(|(n, work)| Point::new(f64::from(*n), *work))
+                .collect(),
+        )
+    }
+}
+
+/// Time and primitives evaluated against the number of primitives, with and without pruning.
 ///
 /// # Errors
 /// If a shape can't be traced.
@@ -94,51 +170,56 @@ pub fn primitives(plan: &Plan) -> Result<Findings, Fault> {
         .map(crowd)
         .into_iter()
         .collect::<Result<Vec<Scene>, Fault>>()?;
-    let mut times: Vec<Vec<Vec<f64>>> = vec![vec![Vec::new(); NUMBERS.len()]; plan.methods.len()];
+    let way = |method: Method, is_pruned: bool| Way {
+        method,
+        is_pruned,
+        times: vec![Vec::new(); NUMBERS.len()],
+        work: Vec::new(),
+    };
+    let methods = plan.methods.iter();
+    let mut ways: Vec<Way> = methods
+        .flat_map(|m| [way(*m, true), way(*m, false)])
+        .collect();
     for _ in 0..plan.rounds.max(1) {
-        for (method, times) in plan.methods.iter().zip(&mut times) {
-            for (i, scene) in scenes.iter().enumerate() {
-                let is_long = |t: &Vec<f64>| t.iter().any(|t| *t > LONG);
-                if times[..=i].iter().any(is_long) {
-                    break;
-                }
-                let settings = Settings {
-                    method: *method,
-                    ..scene.settings
-                };
-                let world = World::of(&scene.shown, &settings)?;
-                times[i].push(Hits::of(scene, &world, 1).milliseconds());
+        for way in &mut ways {
+            for (number, scene) in scenes.iter().enumerate() {
+                way.run(number, scene)?;
             }
         }
     }
-    let point = |(n, times): (&u32, Vec<f64>)| {
-        let spread = Spread::of(times)?;
-        Some(Point {
-            upper: Some(spread.upper),
-            ..Point::new(f64::from(*n), spread.minimum)
-        })
+    let panel = |title: &str, label: &str, scale: Scale, series: fn(&Way) -> Series| Panel {
+        title: title.into(),
+        x: Axis {
+            label: "primitives".into(),
+            scale: Scale::Log,
+        },
+        y: Axis {
+            label: label.into(),
+            scale,
+        },
+        series: ways.iter().map(series).collect(),
     };
-    let series = plan
-        .methods
-        .iter()
-        .zip(times)
-        .map(|(method, times)| {
-            series_of(
-                *method,
-                NUMBERS.iter().zip(times).filter_map(point).collect(),
-            )
-        })
-        .collect();
-    let subtitle = "A hard union of balls, boxes and rings in the same space; camera rays at 160 × 90, one thread.";
-    let axes = [("primitives", Scale::Log), ("milliseconds", Scale::Log)];
-    Ok(Findings {
-        chart: single(
-            "Time against the number of primitives",
-            subtitle,
-            axes,
-            series,
+    let [width, height] = SIZE;
+    let chart = Chart {
+        title: "Many primitives, with and without pruning".into(),
+        subtitle: format!(
+            "A hard union of balls, boxes and rings in the same space; camera rays at {width} × {height}, one thread."
         ),
-        columns: ["method", "primitives", "milliseconds"],
+        columns: 2,
+        panels: vec![
+            panel("Time", "milliseconds", Scale::Log, Way::timed),
+            panel(
+                "Primitives evaluated",
+                "a ray; closed forms count nothing",
+                Scale::LogFromOne,
+                Way::counted,
+            ),
+        ],
+        notes: Vec::new(),
+    };
+    Ok(Findings {
+        chart,
+        columns: ["method", "primitives", "value"],
     })
 }
 
@@ -166,17 +247,8 @@ fn crowd(n: u32) -> Result<Scene, Fault> {
             shape,
         )?);
     }
-    let union = Combination {
-        operation: Operation::Union,
-        blend: AnyBlend::HARD,
-    };
-    let shown = if children.len() == 1 {
-        children
-    } else {
-        vec![Node::combination(union, children)?]
-    };
     Ok(Scene {
-        shown,
+        shown: children,
         camera: Camera {
             eye: DVec3::new(12.0, 14.0, 30.0),
             at: DVec3::ZERO,
@@ -226,6 +298,38 @@ mod tests {
         let findings = grazing(&plan(&[Method::Auto])).unwrap();
         let found = &findings.chart.panels[0].series[1];
         assert!(found.points.iter().all(|p| p.at[1] <= 2.0), "{found:?}");
+    }
+
+    /// Without pruning, every sample evaluates all primitives; with it, a thousand times as many cost a few times as much. Both
+    /// find the same.
+    #[test]
+    fn pruning_passes_over_most_primitives() {
+        let scenes = [10, 1000].map(|n| crowd(n).unwrap());
+        let evaluated = |n: usize, is_pruned: bool| {
+            let way = Way {
+                method: Method::Certified,
+                is_pruned,
+                times: Vec::new(),
+                work: Vec::new(),
+            };
+            let mut scene = scenes[n].clone();
+            scene.settings.size = [32, 18];
+            let hits = Hits::of(&scene, &way.world(&scene).unwrap(), 0);
+            let places: Vec<_> = hits.outcomes.iter().map(|o| (o.verdict, o.t)).collect();
+            (hits.evaluations(), places)
+        };
+        let [few, many] = [0, 1].map(|n| (evaluated(n, true), evaluated(n, false)));
+        for ((_, pruned), (_, whole)) in [&few, &many] {
+            for ((verdict, t), (expected, at)) in pruned.iter().zip(whole) {
+                assert_eq!(verdict, expected);
+                assert!(t == at || (t - at).abs() < 1e-9, "{t} {at}");
+            }
+        }
+        // Ten and a thousand primitives in each sample.
+        let growth = 100.0 * many.1.0 / few.1.0;
+        assert!(growth > 50.0, "unpruned: {growth} times as many");
+        let growth = many.0.0 / few.0.0;
+        assert!(growth < 10.0, "pruned: {growth} times as many");
     }
 
     #[test]

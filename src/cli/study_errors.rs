@@ -1,101 +1,13 @@
-//! Studies of errors: by distance from the origin, by the way gradients are found, by samples a pixel.
+//! Studies of errors: by the way gradients are found, by samples a pixel.
 
-use super::chart_panels::series_of;
 use super::study::{Findings, Plan, single};
-use crate::catalogue::{
-    AnyBlend, AnyModifier, AnyPrimitive, Combination, Cuboid, Operation, Smooth, Sphere, Torus,
-    Translate,
-};
+use crate::catalogue::{AnyPrimitive, Torus};
 use crate::num::{Dual, Vec3};
 use crate::output::chart::{Axis, Chart, Line, Panel, Point, Scale, Series};
-use crate::render::{Channel, Errors, Film, Hits, RenderOptions, render, root_mean_square};
-use crate::scene::{Camera, Fault, Method, Node, Scene, Settings};
+use crate::render::{Channel, Film, RenderOptions, render, root_mean_square};
+use crate::scene::{Fault, Node, Scene, Settings};
 use crate::trace::World;
 use glam::DVec3;
-use std::sync::Arc;
-
-/// The picture of the study of distances.
-const SIZE: [u32; 2] = [96, 54];
-
-/// The distances from the origin, in scene units.
-const DISTANCES: [f64; 9] = [1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8];
-
-fn moved(node: Arc<Node>, by: DVec3) -> Result<Arc<Node>, Fault> {
-    Node::modifier(AnyModifier::Translate(Translate::new(by.to_array())), node)
-}
-
-/// A ball and a box that melt into each other, and a ring: moved away from the origin, with the camera.
-fn group(away: DVec3) -> Result<Scene, Fault> {
-    let ball = Node::primitive(AnyPrimitive::Sphere(Sphere::new(0.8)))?;
-    let cube = Node::primitive(AnyPrimitive::Cuboid(Cuboid::new([1.1; 3], 0.05)))?;
-    let ring = Node::primitive(AnyPrimitive::Torus(Torus::new(1.6, 0.2)))?;
-    let blend = AnyBlend::Smooth(Smooth::new(0.3));
-    let pair = Combination {
-        operation: Operation::Union,
-        blend,
-    };
-    let pair = Node::combination(pair, vec![ball, moved(cube, DVec3::new(0.8, 0.4, 0.2))?])?;
-    Ok(Scene {
-        shown: vec![moved(pair, away)?, moved(ring, away)?],
-        camera: Camera {
-            eye: away + DVec3::new(2.5, 3.0, 5.0),
-            at: away,
-            ..Camera::default()
-        },
-        settings: Settings {
-            size: SIZE,
-            ..Settings::default()
-        },
-        ..Scene::default()
-    })
-}
-
-fn hits(scene: &Scene, method: Method) -> Result<Hits, Fault> {
-    let settings = Settings {
-        method,
-        ..scene.settings
-    };
-    Ok(Hits::of(scene, &World::of(&scene.shown, &settings)?, 0))
-}
-
-/// The hits as they would be from the same rays at the origin: a distance along a ray does not change when everything moves.
-fn at_origin(moved: Hits, truth: &Hits) -> Hits {
-    Hits {
-        rays: truth.rays.clone(),
-        ..moved
-    }
-}
-
-/// Errors against the distance from the origin.
-///
-/// # Errors
-/// If a shape can't be traced.
-pub fn distance(plan: &Plan) -> Result<Findings, Fault> {
-    let direction = DVec3::new(2.0, -1.0, 2.0) / 3.0;
-    let truth = hits(&group(DVec3::ZERO)?, Method::Reference)?;
-    let mut series = Vec::new();
-    for method in &plan.methods {
-        let mut points = Vec::new();
-        for distance in DISTANCES {
-            let found = hits(&group(direction * distance)?, *method)?;
-            let errors = Errors::of(&at_origin(found, &truth), &truth);
-            let mut point = Point::new(distance, errors.depth_p99);
-            point.look.is_wrong = errors.false_misses > 0;
-            point.look.is_crossed = errors.unknown > 0;
-            points.push(point);
-        }
-        series.push(series_of(*method, points));
-    }
-    let subtitle = "A blend and a ring, moved away together with the camera; grey: surfaces missed, crossed: some rays unknown.";
-    let axes = [
-        ("distance from the origin", Scale::Log),
-        ("error of depth (p99), pixels", Scale::LogOrExact),
-    ];
-    Ok(Findings {
-        chart: single("Errors far from the origin", subtitle, axes, series),
-        columns: ["method", "distance", "pixels"],
-    })
-}
 
 /// The widths of differences, in scene units.
 const WIDTHS: [f64; 13] = [

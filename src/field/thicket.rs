@@ -116,6 +116,14 @@ impl Thicket {
         })
     }
 
+    /// The same thicket with the constants of its leaves times a factor: for studies of what wrong ones do.
+    pub fn with_constants_times(mut self, factor: f64) -> Self {
+        for leaf in &mut self.leaves {
+            leaf.lipschitz *= factor;
+        }
+        self
+    }
+
     /// Thickets with fewer leaves are evaluated whole.
     const FEWEST: usize = 3;
 
@@ -430,5 +438,21 @@ mod tests {
             }
         }
         assert!(3 * left < 2 * all, "{left} of {all} leaves are left");
+    }
+
+    /// In a ball, values reach as far as the constants of the leaves allow.
+    #[test]
+    fn wrong_constants_are_those_of_the_leaves_too() {
+        let width = |factor: f64| {
+            let node = tree(1);
+            let thicket = Thicket::new(&node, Level::best(), &|_| 1.0).unwrap();
+            let thicket = thicket.with_constants_times(factor);
+            let all = |x: f64| Lanes([x; 32]);
+            let values = thicket.values(&Vec3::new(all(100.0), all(0.0), all(0.0)));
+            let reach = thicket.sifted(&values, &all(0.1), 0.0).reach;
+            reach.high.0[0] - reach.low.0[0]
+        };
+        assert!((width(1.0) - 0.2).abs() < 1e-6, "{}", width(1.0));
+        assert!((width(4.0) / width(1.0) - 4.0).abs() < 1e-6);
     }
 }

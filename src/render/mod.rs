@@ -27,5 +27,5 @@ pub use job::{Progress, RenderOptions, Rendered, render};
 pub use rounds::{Case, Run, rounds};
 pub use spread::Spread;
 pub use statistics::{Milliseconds, Rays, Statistics, Steps, Verdicts};
-pub use sweep::{Judged, Setting, Truth, pareto, sweep};
+pub use sweep::{Judged, Place, Setting, Truth, pareto, sweep};
 pub use view::View;

@@ -96,7 +96,7 @@ impl World {
         Ok(Self::of_parts(parts, *settings, level))
     }
 
-    fn of_parts(parts: Vec<Part>, settings: Settings, level: Level) -> Self {
+    pub(super) fn of_parts(parts: Vec<Part>, settings: Settings, level: Level) -> Self {
         let numbered = || {
             parts
                 .iter()
@@ -213,6 +213,8 @@ impl World {
         for part in &mut self.parts {
             if let PartKind::Marched(marched) = &mut part.kind {
                 marched.lipschitz *= factor;
+                let thicket = marched.thicket.take();
+                marched.thicket = thicket.map(|t| t.with_constants_times(factor));
             }
         }
         self

@@ -90,6 +90,10 @@ impl<'a, B: DrawingBackend> Canvas<'a, B> {
 
     fn path(&self, points: &[[f64; 2]], color: Color, width: f64) -> Result<(), Trouble> {
         let path: Vec<_> = points.iter().map(|p| self.pixel(*p)).collect();
+        // A line without length is none.
+        if path.windows(2).all(|pair| pair[0] == pair[1]) {
+            return Ok(());
+        }
         let element = PathElement::new(path, self.stroke(color, width));
         self.area.draw(&element).map_err(|error| error.to_string())
     }

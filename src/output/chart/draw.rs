@@ -1,7 +1,7 @@
 //! A chart on a surface: title, legend, panels.
 
 use super::canvas::{Anchor, Canvas, Letters, Trouble};
-use super::marks::{BAND, Color, FAINT, GRID, INK, Look, PAPER, WRONG, style};
+use super::marks::{BAND, Color, FAINT, GRID, INK, Look, PAPER, RING, Shape, WRONG, style};
 use super::scale::Range;
 use super::{Chart, Line, Panel, Point, Series};
 use plotters::prelude::DrawingBackend;
@@ -82,7 +82,13 @@ fn head(chart: &Chart) -> f64 {
     title + if chart.subtitle.is_empty() { 0.0 } else { 20.0 }
 }
 
-/// The words of the legend, each once.
+/// All points of a chart.
+fn points(chart: &Chart) -> impl Iterator<Item = &Point> {
+    let series = chart.panels.iter().flat_map(|panel| &panel.series);
+    series.flat_map(|series| &series.points)
+}
+
+/// The words of the legend, each once; of the notes, those on marks that some point bears.
 fn words(chart: &Chart) -> Vec<(Sign, &str)> {
     let mut words: Vec<(Sign, &str)> = Vec::new();
     for series in chart.panels.iter().flat_map(|panel| &panel.series) {
@@ -96,18 +102,28 @@ fn words(chart: &Chart) -> Vec<(Sign, &str)> {
         Sign::Series(number, line) => (*line != Line::Solid, *number),
         Sign::Note(_) => (true, usize::MAX),
     });
-    words.extend(
-        chart
-            .notes
-            .iter()
-            .map(|(look, text)| (Sign::Note(*look), &text[..])),
-    );
+    let is_used = |look: &Look| points(chart).any(|point| point.look.has_some_of(look));
+    let notes = chart.notes.iter().filter(|(look, _)| is_used(look));
+    words.extend(notes.map(|(look, text)| (Sign::Note(*look), &text[..])));
     words
 }
 
-/// How wide a word of the legend is with its sign, judged by its letters: the same on every surface.
+/// How wide a word of the legend is with its sign, judged by its letters: the same on every surface, with room for fonts that
+/// are wider than ours.
 fn word_width(text: &str) -> f64 {
-    36.0 + 0.53 * 12.0 * text.chars().count() as f64 + 14.0
+    36.0 + 12.0 * text.chars().map(letter_width).sum::<f64>() + 18.0
+}
+
+/// About how wide a letter is beside its height.
+fn letter_width(letter: char) -> f64 {
+    match letter {
+        'f' | 'i' | 'j' | 'l' | 'r' | 't' | 'I' | ' ' | '.' | ',' | ':' | '-' | '(' | ')' | '/' => {
+            0.36
+        }
+        'm' | 'w' | 'M' | 'W' => 0.86,
+        'A'..='Z' => 0.68,
+        _ => 0.57,
+    }
 }
 
 /// How many lines the legend has.
@@ -224,7 +240,10 @@ fn mark<B: DrawingBackend>(
             .collect()
     };
     if look.is_ringed {
-        canvas.polygon(&around(1.9 * radius), PAPER, [200, 0, 40], 1.5)?;
+        let ring = Shape::Disc.corners();
+        let corner = |c: &[f64; 2]| [0, 1].map(|i| at[i] + 2.0 * radius * c[i]);
+        let closed: Vec<[f64; 2]> = ring.iter().chain(ring.first()).map(corner).collect();
+        canvas.line(&closed, RING, 1.5)?;
     }
     canvas.polygon(&around(radius), color, rim, width)?;
     if look.is_crossed {
@@ -262,6 +281,11 @@ impl<'a> Plot<'a> {
     fn edges(&self) -> [f64; 4] {
         let [x, y] = self.corner;
         let [left, top, right, below] = MARGINS;
+        let top = if self.panel.title.is_empty() {
+            10.0
+        } else {
+            top
+        };
         [
             x + left,
             y + top,

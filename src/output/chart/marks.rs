@@ -8,6 +8,7 @@ pub(super) const FAINT: Color = [120, 120, 128];
 pub(super) const GRID: Color = [228, 228, 232];
 pub(super) const PAPER: Color = [255; 3];
 pub(super) const WRONG: Color = [178, 178, 184];
+pub(super) const RING: Color = [200, 0, 40];
 pub(super) const BAND: Color = [222, 226, 236];
 
 /// Ten colours that people who see few colours can tell apart, as far as ten can be. Sources: the first seven but black, Okabe
@@ -39,6 +40,16 @@ pub struct Look {
     pub is_crossed: bool,
     /// Its bounds were refuted: ringed.
     pub is_ringed: bool,
+}
+
+impl Look {
+    /// Whether it bears one of the marks of `other`.
+    pub(super) fn has_some_of(&self, other: &Self) -> bool {
+        (self.is_default && other.is_default)
+            || (self.is_wrong && other.is_wrong)
+            || (self.is_crossed && other.is_crossed)
+            || (self.is_ringed && other.is_ringed)
+    }
 }
 
 /// The shape of points.

@@ -15,7 +15,7 @@ mod vector;
 pub use legend::{NARROWEST, legend};
 pub use marks::{Look, STYLES};
 pub use pixels::pixels;
-pub use scale::Scale;
+pub use scale::{EXACT, Scale};
 pub use vector::svg;
 
 /// Panels side by side, row by row, under a common title and legend.

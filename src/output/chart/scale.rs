@@ -36,7 +36,7 @@ pub(super) struct Range {
 }
 
 /// Errors below this are called exact: they are rounding.
-const EXACT: f64 = 1e-12;
+pub const EXACT: f64 = 1e-12;
 
 impl Scale {
     /// The number in the scale's own measure, if it has one.
@@ -89,8 +89,11 @@ fn widened(from: f64, to: f64) -> (f64, f64) {
 }
 
 impl Range {
-    /// The place of a number, in [0, 1].
+    /// The place of a number, in [0, 1]; what is infinite is at the end.
     pub fn place(&self, x: f64) -> Option<f64> {
+        if x == f64::INFINITY {
+            return Some(1.0);
+        }
         let measured = match self.exact {
             Some(exact) if (0.0..EXACT).contains(&x) => exact,
             _ => self.scale.measure(x)?,
@@ -107,10 +110,16 @@ impl Range {
 
     /// The marks with their labels, at most about `most` of them.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
+        // The word at the break needs the room of a label.
+        let clear = self
+            .exact
+            .map_or(0.0, |e| (e - self.from) / (self.to - self.from))
+            + 0.6 / most.max(1) as f64;
         let mut ticks: Vec<Tick> = self
             .numbers(most)
             .into_iter()
             .filter_map(|x| self.tick(x))
+            .filter(|tick| self.exact.is_none() || tick.at >= clear)
             .collect();
         if let Some(exact) = self.exact {
             let at = (exact - self.from) / (self.to - self.from);
@@ -137,7 +146,7 @@ impl Range {
     /// The numbers at the marks.
     fn numbers(&self, most: usize) -> Vec<f64> {
         match self.scale {
-            Scale::Linear => round_steps(self.from.max(0.0), self.to, most),
+            Scale::Linear => round_steps(self.from, self.to, most),
             Scale::Log | Scale::LogOrExact => decades(
                 self.from.ceil() as i32..=self.to.floor() as i32,
                 self.to - self.from,
@@ -231,6 +240,7 @@ mod tests {
             labels(Scale::Linear, &[3.0, 47.0], 6),
             ["0", "10", "20", "30", "40"]
         );
+        assert_eq!(labels(Scale::Linear, &[-80.0, 80.0], 5), ["-50", "0", "50"]);
         assert_eq!(
             labels(Scale::Log, &[1e-6, 30.0], 9),
             ["10⁻⁶", "10⁻⁵", "10⁻⁴", "0.001", "0.01", "0.1", "1", "10"]
@@ -273,10 +283,31 @@ mod tests {
         assert_eq!(labels, ["0", "1", "10", "100", "1000", "10000"]);
     }
 
+    /// Infinite errors are those of a method that found nothing to compare: not hidden, but as bad as can be.
+    #[test]
+    fn infinite_is_at_the_end() {
+        for scale in [Scale::Log, Scale::LogOrExact, Scale::LogFromOne] {
+            let range = scale.range([f64::INFINITY, 1.0, 10.0].into_iter());
+            assert!(range.place(10.0).unwrap() < 1.0);
+            assert_eq!(range.place(f64::INFINITY), Some(1.0));
+        }
+    }
+
+    #[test]
+    fn labels_keep_clear_of_the_word_at_the_break() {
+        for least in 1..12 {
+            let least = 10f64.powi(-least);
+            let range = Scale::LogOrExact.range([0.0, least, 10.0].into_iter());
+            let ticks = range.ticks(6);
+            assert_eq!(ticks[0].label, "exact");
+            assert!(ticks[1].at - ticks[0].at > 0.09, "{least}: {ticks:?}");
+        }
+    }
+
     #[test]
     fn what_has_no_place_is_left_out() {
         let range = Scale::Log.range([f64::NAN, 0.0, -1.0, 1.0, 10.0].into_iter());
-        for x in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
+        for x in [f64::NAN, 0.0, -1.0, f64::NEG_INFINITY] {
             assert_eq!(range.place(x), None, "{x}");
         }
         assert!(Scale::Log.range([].into_iter()).place(3.0).is_some());

@@ -49,6 +49,8 @@ pub(super) struct Scratch {
     /// Rays with hits whose gradients are still to be found.
     fresh: Vec<u32>,
     shop: Workshop,
+    /// The last part that rays of a sweep hit.
+    occluder: Option<u32>,
 }
 
 thread_local! {
@@ -89,8 +91,10 @@ impl World {
                 found: Vec::new(),
                 fresh: Vec::new(),
                 shop: Workshop::default(),
+                occluder: None,
             })
         });
+        scratch.occluder = None;
         let mut numbers: Vec<u32> = (0..rays.len() as u32).collect();
         for numbers in numbers.chunks_mut(CAPACITY) {
             self.sweep_bundle(rays, numbers, None, question, &mut scratch, answer);
@@ -138,6 +142,12 @@ impl World {
                 return;
             }
         }
+        // What blocked rays of this sweep before is asked first.
+        let last = scratch.occluder.filter(|_| question.any);
+        let same = |(_, number): &&mut (f64, u32)| Some(*number) == last;
+        if let Some((enter, _)) = scratch.candidates.iter_mut().find(same) {
+            *enter = -1.0;
+        }
         scratch
             .candidates
             .sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -149,6 +159,7 @@ impl World {
             }
             if self.ask(number, &beam, question.any, scratch) {
                 farthest = self.farthest(&scratch.bundle);
+                scratch.occluder = Some(number);
             }
         }
         answer(&mut scratch.bundle, numbers);

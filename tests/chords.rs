@@ -57,10 +57,16 @@ fn tree(seed: u64, height: u32) -> Arc<Node> {
     ];
     let count = 2 + (number(seed, 40) * 3.0) as u64;
     let child = |k: u64| tree(seed.wrapping_mul(31).wrapping_add(k + 1), height - 1);
-    combined(
-        operations[(number(seed, 41) * 4.0) as usize],
-        (0..count).map(child).collect(),
-    )
+    let operation = operations[(number(seed, 41) * 4.0) as usize];
+    let combination = combined(operation, (0..count).map(child).collect());
+    let turn = Rotate::new(
+        0.0,
+        [0.0, 0.0, 1.0],
+        number(seed, 42),
+        0.0,
+        number(seed, 43),
+    );
+    modified(AnyModifier::Rotate(turn), combination)
 }
 
 /// A tree inside of a box, so that it ends somewhere. The outermost operation keeps it in one part.

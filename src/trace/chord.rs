@@ -1,8 +1,7 @@
 //! Convex solids whose stretch on a ray is known in closed form.
 
 use super::analytic::{Ball, HalfSpace};
-use crate::catalogue::{AnyPrimitive, Bounds, Similarity};
-use crate::scene::{Node, Shape};
+use crate::catalogue::{AnyPrimitive, Similarity};
 use glam::DVec3;
 
 /// Half a unit in the last place of 1: the largest relative error of one operation in f64.
@@ -273,13 +272,9 @@ macro_rules! with_solid {
 pub(super) use with_solid;
 
 impl Convex {
-    /// The solid of a leaf, with its box; none if it has no closed form.
-    pub fn of(node: &Node) -> Option<(Self, Bounds)> {
-        let (map, inner) = node.unplaced();
-        let Shape::Primitive(primitive) = inner.shape() else {
-            return None;
-        };
-        let frame = Frame::new(&map);
+    /// The solid that a primitive is under a map; none if it has no closed form.
+    pub fn of(primitive: &AnyPrimitive, map: &Similarity) -> Option<Self> {
+        let frame = Frame::new(map);
         let outside = |p: [f64; 3]| DVec3::from_array(map.outside(p));
         let solid = match primitive {
             AnyPrimitive::Sphere(s) => Self::Ball(Ball {
@@ -305,7 +300,7 @@ impl Convex {
             }),
             _ => return None,
         };
-        Some((solid, node.bounds()))
+        Some(solid)
     }
 
     /// The outward unit normal at a point of the surface.
@@ -322,6 +317,7 @@ mod tests {
     };
     use crate::num::Vec3;
     use crate::num::samples::random;
+    use crate::scene::{Node, Shape};
     use std::sync::Arc;
 
     /// A leaf of some kind, turned, scaled and moved.
@@ -355,7 +351,11 @@ mod tests {
         let mut met = 0;
         for seed in 0..4000u64 {
             let node = leaf(seed);
-            let (solid, _) = Convex::of(&node).unwrap();
+            let (map, inner) = node.unplaced();
+            let Shape::Primitive(primitive) = inner.shape() else {
+                panic!("a leaf is a primitive");
+            };
+            let solid = Convex::of(primitive, &map).unwrap();
             let x = |k: u64| random(seed * 64 + 40 + k);
             let origin = DVec3::new(x(0) - 0.5, x(1) - 0.5, x(2) - 0.5) * 6.0;
             let target = DVec3::new(x(3) - 0.5, x(4) - 0.5, x(5) - 0.5);

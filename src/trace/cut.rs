@@ -3,8 +3,8 @@
 //!
 //! Each solid has one chord on a ray. A ray at `t` is inside of a combination, or goes on to the next place where it is: in a
 //! union the nearest of its children's; in an intersection, and with what is taken away turned inside out, to where no child
-//! sends it any farther. So rooms, which are concave, are left by the exits of what was taken away. Where two surfaces lie
-//! so close on a ray that rounding decides their order, nothing is said, and the ray is marched. Sources: Roth 1982 for chords
+//! sends it any farther. So rooms, which are concave, are left by the exits of what was taken away. Where a surface that leads
+//! in and one that leads out lie so close on a ray that rounding decides their order, nothing is said, and the ray is marched. Sources: Roth 1982 for chords
 //! of combinations; Whitted rays that start on a surface leave it first.
 
 #![allow(
@@ -17,7 +17,7 @@ use super::bundle::{Bundle, WIDTH, place};
 use super::chord::{Chord, Convex, Solid, with_solid};
 use super::hierarchy::{BRANCHES, Boxes};
 use super::packet::Lane;
-use crate::catalogue::{Bounds, Combination, Operation};
+use crate::catalogue::{Bounds, Combination, Operation, Similarity};
 use crate::field::{Level, Task, run_at};
 use crate::scene::{Node, Shape};
 use glam::DVec3;
@@ -89,11 +89,12 @@ impl Cut {
     pub fn of(node: &Node) -> Option<Self> {
         let mut leaves = Vec::new();
         let mut bounds: Vec<Bounds> = Vec::new();
-        let tree = tree(node, 1.0, &mut |solid, own, sign| {
+        let tree = tree(node, &Similarity::IDENTITY, 1.0, &mut |solid, own, sign| {
             leaves.push(Leaf { solid, sign });
             // With room for rounding, so that no surface lies on its border.
             let own = own.intersect(node.bounds());
             bounds.push(own.inflate(1e-9 * own.finite_size()));
+            leaves.len() - 1
         })?;
         let boxes = |some: &[Bounds]| Boxes::new(some.iter().copied());
         Some(Self {
@@ -182,59 +183,61 @@ impl Cut {
         }
     }
 
-    /// The one leaf whose surface a ray meets at `t`, with the error of that; none where others are as near as rounding.
+    /// A leaf whose surface a ray meets at `t`, with the error of that. None where rounding decides what lies there: where
+    /// one surface leads into the combination and another out of it. Surfaces that lead the same way may come in any order.
     fn surface(&self, t: f64, lane: usize, shop: &Workshop) -> Option<(usize, f64)> {
-        let mut found = None;
-        for leaf in &shop.met {
-            let chords = &shop.chords[*leaf as usize];
-            for end in [chords.enter[lane], chords.leave[lane]] {
-                if end == t && found.is_none() {
-                    found = Some((*leaf as usize, chords.error[lane]));
+        // Each surface: its leaf, its place, the error, and whether it leads into what is combined.
+        let surfaces = || {
+            shop.met.iter().flat_map(|leaf| {
+                let leaf = *leaf as usize;
+                let (chords, is_added) = (&shop.chords[leaf], self.leaves[leaf].sign > 0.0);
+                let error = chords.error[lane];
+                [
+                    (leaf, chords.enter[lane], error, is_added),
+                    (leaf, chords.leave[lane], error, !is_added),
+                ]
+            })
+        };
+        let (leaf, _, own, leads_in) = surfaces().find(|(_, end, ..)| *end == t)?;
+        let mut error = own;
+        for (_, end, other, also_in) in surfaces() {
+            if (end - t).abs() <= 4.0 * (own + other) {
+                if also_in != leads_in {
+                    return None;
                 }
+                error = error.max(other);
             }
         }
-        let (leaf, error) = found?;
-        let mut near = 0;
-        for other in &shop.met {
-            let chords = &shop.chords[*other as usize];
-            let margin = 4.0 * (error + chords.error[lane]);
-            for end in [chords.enter[lane], chords.leave[lane]] {
-                near += usize::from((end - t).abs() <= margin);
-            }
-        }
-        (near == 1).then_some((leaf, error))
+        Some((leaf, error))
     }
 }
 
-/// The combination that a node is, with each of its leaves told to `leaf`.
-fn tree(node: &Node, sign: f64, leaf: &mut dyn FnMut(Convex, Bounds, f64)) -> Option<Tree> {
-    let mut count = 0;
-    numbered(node, sign, &mut |solid, bounds, sign| {
-        leaf(solid, bounds, sign);
-        count += 1;
-        count - 1
-    })
-}
+/// What is told of each leaf: the solid, a box around it, and whether it is added (1) or taken away (-1).
+type Tell<'a> = &'a mut dyn FnMut(Convex, Bounds, f64) -> usize;
 
-fn numbered(
-    node: &Node,
-    sign: f64,
-    leaf: &mut dyn FnMut(Convex, Bounds, f64) -> usize,
-) -> Option<Tree> {
-    if let Some((solid, bounds)) = Convex::of(node) {
-        return Some(Tree::Solid(leaf(solid, bounds, sign)));
-    }
-    let Shape::Combination(Combination { operation, blend }, children) = node.shape() else {
-        return None;
+/// The combination that a node is under a map; `leaf` numbers its leaves.
+fn tree(node: &Node, outer: &Similarity, sign: f64, leaf: Tell) -> Option<Tree> {
+    let (map, inner) = node.unplaced();
+    let map = outer.then(&map);
+    let (operation, children) = match inner.shape() {
+        Shape::Primitive(primitive) => {
+            let solid = Convex::of(primitive, &map)?;
+            return Some(Tree::Solid(leaf(
+                solid,
+                outside(inner.bounds(), &map),
+                sign,
+            )));
+        }
+        Shape::Combination(Combination { operation, blend }, children) if blend.is_hard() => {
+            (operation, children)
+        }
+        _ => return None,
     };
-    if !blend.is_hard() {
-        return None;
-    }
     let is_less = *operation == Operation::Difference;
     let mut trees = Vec::with_capacity(children.len());
     for (k, child) in children.iter().enumerate() {
         let sign = if is_less && k > 0 { -sign } else { sign };
-        trees.push(numbered(child, sign, leaf)?);
+        trees.push(tree(child, &map, sign, leaf)?);
     }
     match operation {
         Operation::Union => Some(Tree::Any(trees)),
@@ -242,6 +245,18 @@ fn numbered(
         Operation::Difference => Some(Tree::Less(trees)),
         Operation::Joint => None,
     }
+}
+
+/// A box around what a map makes of a box.
+fn outside(bounds: Bounds, map: &Similarity) -> Bounds {
+    if !bounds.is_finite() {
+        return Bounds::EVERYWHERE;
+    }
+    let corner = |k: usize| {
+        let end = |axis: usize| [bounds.low[axis], bounds.high[axis]][k >> axis & 1];
+        map.outside([0, 1, 2].map(end))
+    };
+    Bounds::around((0..8).map(corner))
 }
 
 /// Finds the chords of a solid on up to 32 rays.

@@ -192,3 +192,37 @@ fn coincident_faces_leave_no_skin() {
         assert_eq!(out.verdict, Verdict::Miss, "{x}, {z}: {out:?}");
     }
 }
+
+#[test]
+fn rays_along_faces_are_not_lost() {
+    // Nearly along two of the faces of a box, and in the very plane of one: what is far is no less a surface for it.
+    let node = combined(
+        Operation::Difference,
+        vec![
+            Node::primitive(AnyPrimitive::Cuboid(Cuboid::new([2.0, 2.0, 2.0], 0.0)))
+                .expect("a box"),
+            Node::primitive(AnyPrimitive::Cylinder(Cylinder::new(
+                0.3,
+                f64::INFINITY,
+                0.0,
+            )))
+            .expect("a cylinder"),
+        ],
+    );
+    for aside in [0.0, 1e-15, -1e-15, 1e-13, 1e-9, -1e-6] {
+        for x in [0.5, 0.999, 1.0 - 1e-13, 1.0, 1.0 + 1e-13, 1.1] {
+            let along = ray([x, 0.2, -2.0], [aside, aside, 1.0]);
+            let [auto, reference] = [Method::Auto, Method::Reference]
+                .map(|method| found(&node, method, std::slice::from_ref(&along))[0]);
+            let what = format!("{along:?}: {auto:?}, {reference:?}");
+            if x < 1.0 - 1e-3 {
+                assert_eq!(auto.verdict, Verdict::Hit, "{what}");
+                assert!((auto.t - 1.0).abs() < 1e-9, "{what}");
+            } else if x > 1.0 + 1e-3 {
+                assert_eq!(auto.verdict, Verdict::Miss, "{what}");
+            } else if reference.verdict != Verdict::Unknown {
+                assert_eq!(auto.verdict, reference.verdict, "{what}");
+            }
+        }
+    }
+}

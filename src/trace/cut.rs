@@ -56,7 +56,10 @@ pub(super) struct Cut {
 struct Chords {
     enter: Lane,
     leave: Lane,
-    error: Lane,
+    /// The errors of both.
+    errors: [Lane; 2],
+    /// 1 where the chord is in doubt, else 0.
+    doubt: Lane,
 }
 
 /// What became of a ray.
@@ -130,7 +133,8 @@ impl Cut {
         let nothing = Chords {
             enter: [f64::INFINITY; WIDTH],
             leave: [f64::INFINITY; WIDTH],
-            error: [0.0; WIDTH],
+            errors: [[0.0; WIDTH]; 2],
+            doubt: [0.0; WIDTH],
         };
         shop.chords.resize(self.leaves.len(), nothing);
         for rays in rays.chunks(WIDTH) {
@@ -158,6 +162,8 @@ impl Cut {
         let starts_inside = (0..rays.len()).any(|lane| into[lane] == 0.0);
         let is_done = is_done && (!starts_inside || walk.go(&self.tree, &mut out_of, true));
         for (lane, ray) in rays.iter().enumerate() {
+            let is_doubtful = |leaf: &u32| shop.chords[*leaf as usize].doubt[lane] != 0.0;
+            let is_done = is_done && !shop.met.iter().any(is_doubtful);
             let t = if into[lane] == 0.0 {
                 out_of[lane]
             } else {
@@ -191,10 +197,10 @@ impl Cut {
             shop.met.iter().flat_map(|leaf| {
                 let leaf = *leaf as usize;
                 let (chords, is_added) = (&shop.chords[leaf], self.leaves[leaf].sign > 0.0);
-                let error = chords.error[lane];
+                let [enter, leave] = [0, 1].map(|k: usize| chords.errors[k][lane]);
                 [
-                    (leaf, chords.enter[lane], error, is_added),
-                    (leaf, chords.leave[lane], error, !is_added),
+                    (leaf, chords.enter[lane], enter, is_added),
+                    (leaf, chords.leave[lane], leave, !is_added),
                 ]
             })
         };
@@ -288,19 +294,21 @@ impl<S: Solid> Task for Cross<'_, S> {
             let Chord {
                 enter,
                 leave,
-                error,
+                errors,
+                is_doubtful,
             } = self.solid.chord(origin, direction);
             // A ray that starts on a surface leaves it first.
-            let start = 2.0 * error;
-            let is_behind = leave <= start;
-            let enter = if enter <= start {
+            let is_behind = leave <= 2.0 * errors[1];
+            let enter = if enter <= 2.0 * errors[0] {
                 f64::NEG_INFINITY
             } else {
                 enter
             };
             self.chords.enter[lane] = if is_behind { f64::INFINITY } else { enter };
             self.chords.leave[lane] = if is_behind { f64::INFINITY } else { leave };
-            self.chords.error[lane] = error;
+            self.chords.errors[0][lane] = errors[0];
+            self.chords.errors[1][lane] = errors[1];
+            self.chords.doubt[lane] = if is_doubtful { 1.0 } else { 0.0 };
         }
     }
 }

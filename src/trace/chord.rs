@@ -277,11 +277,8 @@ impl Solid for Bar {
         } else {
             aside - self.radius
         };
-        let error = if is_along {
-            0.0
-        } else {
-            error + 4.0 * U * (far * scale).abs()
-        };
+        let rounding = error + 4.0 * U * (far * scale).abs();
+        let error = if is_along | !is_met { 0.0 } else { rounding };
         let round = Chord::between(
             if is_along { around } else { crossed },
             if is_along { f64::INFINITY } else { left },

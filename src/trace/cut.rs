@@ -19,6 +19,7 @@ use super::hierarchy::{BRANCHES, Boxes};
 use super::packet::Lane;
 use crate::catalogue::{Bounds, Combination, Operation, Similarity};
 use crate::field::{Level, Task, run_at};
+use crate::num::Vec3;
 use crate::scene::{Node, Shape};
 use glam::DVec3;
 
@@ -92,13 +93,18 @@ impl Cut {
     pub fn of(node: &Node) -> Option<Self> {
         let mut leaves = Vec::new();
         let mut bounds: Vec<Bounds> = Vec::new();
-        let tree = tree(node, &Similarity::IDENTITY, 1.0, &mut |solid, own, sign| {
-            leaves.push(Leaf { solid, sign });
-            // With room for rounding, so that no surface lies on its border.
-            let own = own.intersect(node.bounds());
-            bounds.push(own.inflate(1e-9 * own.finite_size()));
-            leaves.len() - 1
-        })?;
+        let tree = tree(
+            node,
+            &Similarity::IDENTITY,
+            1.0,
+            &mut |solid, own, map, sign| {
+                leaves.push(Leaf { solid, sign });
+                // With room for rounding, so that no surface lies on its border.
+                let own = outside(own, map, node.bounds());
+                bounds.push(own.inflate(1e-9 * node.bounds().finite_size()));
+                leaves.len() - 1
+            },
+        )?;
         let boxes = |some: &[Bounds]| Boxes::new(some.iter().copied());
         Some(Self {
             tree,
@@ -218,8 +224,9 @@ impl Cut {
     }
 }
 
-/// What is told of each leaf: the solid, a box around it, and whether it is added (1) or taken away (-1).
-type Tell<'a> = &'a mut dyn FnMut(Convex, Bounds, f64) -> usize;
+/// What is told of each leaf: the solid, a box around it before the map that places it, that map, and whether the solid is
+/// added (1) or taken away (-1).
+type Tell<'a> = &'a mut dyn FnMut(Convex, Bounds, &Similarity, f64) -> usize;
 
 /// The combination that a node is under a map; `leaf` numbers its leaves.
 fn tree(node: &Node, outer: &Similarity, sign: f64, leaf: Tell) -> Option<Tree> {
@@ -228,11 +235,7 @@ fn tree(node: &Node, outer: &Similarity, sign: f64, leaf: Tell) -> Option<Tree> 
     let (operation, children) = match inner.shape() {
         Shape::Primitive(primitive) => {
             let solid = Convex::of(primitive, &map)?;
-            return Some(Tree::Solid(leaf(
-                solid,
-                outside(inner.bounds(), &map),
-                sign,
-            )));
+            return Some(Tree::Solid(leaf(solid, inner.bounds(), &map, sign)));
         }
         Shape::Combination(Combination { operation, blend }, children) if blend.is_hard() => {
             (operation, children)
@@ -253,16 +256,28 @@ fn tree(node: &Node, outer: &Similarity, sign: f64, leaf: Tell) -> Option<Tree> 
     }
 }
 
-/// A box around what a map makes of a box.
-fn outside(bounds: Bounds, map: &Similarity) -> Bounds {
-    if !bounds.is_finite() {
-        return Bounds::EVERYWHERE;
+/// A box around what a map makes of a box, as far as that lies in `room`.
+fn outside(bounds: Bounds, map: &Similarity, room: Bounds) -> Bounds {
+    if !room.is_finite() {
+        return room;
     }
-    let corner = |k: usize| {
-        let end = |axis: usize| [bounds.low[axis], bounds.high[axis]][k >> axis & 1];
-        map.outside([0, 1, 2].map(end))
+    // In the solid's own coordinates first, so that a long bar stays thin however it lies.
+    let inside = |[x, y, z]: [f64; 3]| {
+        let q = map.point(&Vec3::new(x, y, z));
+        [q.x, q.y, q.z]
     };
-    Bounds::around((0..8).map(corner))
+    let room_inside = Bounds::around(corners(room).map(inside));
+    let own = bounds.intersect(room_inside);
+    if own.is_empty() {
+        return own;
+    }
+    Bounds::around(corners(own).map(|corner| map.outside(corner))).intersect(room)
+}
+
+/// The corners of a box.
+fn corners(bounds: Bounds) -> impl Iterator<Item = [f64; 3]> {
+    let end = move |k: usize, axis: usize| [bounds.low[axis], bounds.high[axis]][k >> axis & 1];
+    (0..8).map(move |k| [0, 1, 2].map(|axis| end(k, axis)))
 }
 
 /// Finds the chords of a solid on up to 32 rays.

@@ -15,8 +15,8 @@ use serde_json::{Value, json};
 
 const AFTER_HELP: &str = "\
 The first table has, for each method, how many camera rays took how many steps. Of each method there is then a table \
-of what the steps were taken for, by line of the script: a ray's steps are put down to the leaf that it hit; if it hit \
-nothing, or what is met in closed form and so without steps, to the leaf that it passed most closely. They add up to all steps.
+of what the steps were taken for, by line of the script: a ray's steps are put down to the leaves that keep them short, \
+those that govern the field at the places which sphere tracing samples, in proportion. They add up to all steps.
 
 With --budget, the exit code is 1 if a method exceeds it. Counts are the same on every machine, so this belongs into tests.
 

@@ -1,8 +1,9 @@
 //! Where the steps of the camera's rays went.
 //!
-//! A ray's steps are put down to the leaf that it hit. Where it hit nothing, or what it hit took no steps because it is met in
-//! closed form, they are put down to the leaf that it passed most closely, seen from its start: what a ray comes near to is
-//! what keeps its steps short. So every step is put down once, by every method.
+//! What keeps a step short is the leaf that governs the field where it is taken. So a ray's steps are put down to the leaves
+//! that govern the places where classical sphere tracing would sample its way up to where it ended, in proportion to
+//! their numbers; whole steps, by largest remainders, so that they add up to all steps, by every method. Source: Hart 1996 for
+//! the places; Hamilton 1792 for the remainders.
 
 use super::Hits;
 use crate::catalogue::Bounds;
@@ -28,7 +29,7 @@ pub struct Cause {
 /// What is put down to a cause.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Share {
-    /// Rays with at least one step.
+    /// Rays of which at least one step is put down to it.
     pub rays: u64,
     /// Their steps.
     pub steps: u64,
@@ -49,9 +50,11 @@ pub fn effort(hits: &Hits, world: &World) -> Vec<(Cause, Share)> {
         .map(|rays| {
             let mut shares: BTreeMap<Cause, Share> = BTreeMap::new();
             for (ray, outcome) in rays.iter().filter(|(_, outcome)| outcome.steps > 0) {
-                let share = shares.entry(cause(ray, outcome, &parts)).or_default();
-                share.rays += 1;
-                share.steps += u64::from(outcome.steps);
+                for (cause, steps) in causes(ray, outcome, &parts) {
+                    let share = shares.entry(cause).or_default();
+                    share.rays += u64::from(steps > 0);
+                    share.steps += steps;
+                }
             }
             shares
         })
@@ -74,26 +77,55 @@ struct Part<'a> {
     takes_steps: bool,
 }
 
-fn cause(ray: &Ray, outcome: &Outcome, parts: &[Part]) -> Cause {
-    let hit = parts.get(outcome.part as usize);
-    let hit = hit.filter(|part| outcome.verdict == Verdict::Hit && part.takes_steps);
-    let found = match hit {
-        Some(part) => Some((&**part.node, outcome.point.to_array())),
-        None => nearest_pass(
-            &Ray {
-                t_max: ray.t_max.min(outcome.t),
-                ..*ray
-            },
-            parts,
-        ),
-    };
-    let Some((part, point)) = found else {
-        return Cause {
+/// How many places of a ray's way are looked at.
+const LOOKS: usize = 256;
+
+/// At how many of them, evenly chosen, the leaf is looked up.
+const LEAVES: usize = 8;
+
+/// A place that a ray samples in a part.
+type Sample<'a> = (&'a Node, [f64; 3]);
+
+/// What a ray's steps are put down to.
+fn causes(ray: &Ray, outcome: &Outcome, parts: &[Part]) -> Vec<(Cause, u64)> {
+    let samples = replayed(ray, outcome, parts);
+    let steps = u64::from(outcome.steps);
+    let count = samples.len().min(LEAVES);
+    if count == 0 {
+        let nothing = Cause {
             place: None,
             kind: String::new(),
             name: None,
         };
-    };
+        return vec![(nothing, steps)];
+    }
+    let mut weights: BTreeMap<Cause, u64> = BTreeMap::new();
+    for k in 0..count {
+        let (part, point) = samples[(2 * k + 1) * samples.len() / (2 * count)];
+        *weights.entry(cause(part, point)).or_default() += 1;
+    }
+    apportioned(steps, weights.into_iter().collect())
+}
+
+/// So many steps in proportion to the weights, whole ones: what is left over goes to the largest remainders, of equal ones to
+/// the first.
+fn apportioned(steps: u64, weights: Vec<(Cause, u64)>) -> Vec<(Cause, u64)> {
+    let sum: u64 = weights.iter().map(|(_, weight)| weight).sum();
+    let mut order: Vec<usize> = (0..weights.len()).collect();
+    order.sort_by_key(|k| std::cmp::Reverse(steps * weights[*k].1 % sum));
+    let mut shares: Vec<(Cause, u64)> = weights
+        .into_iter()
+        .map(|(cause, weight)| (cause, steps * weight / sum))
+        .collect();
+    let given: u64 = shares.iter().map(|(_, share)| share).sum();
+    for k in order.into_iter().take((steps - given) as usize) {
+        shares[k].1 += 1;
+    }
+    shares
+}
+
+/// The leaf that governs a part at a place.
+fn cause(part: &Node, point: [f64; 3]) -> Cause {
     let (leaf, placed) = governor(part, point);
     Cause {
         place: placed
@@ -104,41 +136,36 @@ fn cause(ray: &Ray, outcome: &Outcome, parts: &[Part]) -> Cause {
     }
 }
 
-/// How many places along a ray are looked at in a part.
-const LOOKS: usize = 96;
-
-/// The part that a ray passes most closely, and where: by the distance to it as an angle seen from the ray's start. Parts whose
-/// boxes it misses count only if it misses all of them.
-fn nearest_pass<'a>(ray: &Ray, parts: &[Part<'a>]) -> Option<(&'a Node, [f64; 3])> {
-    let mut best: Option<(f64, &Node, [f64; 3])> = None;
-    let parts = || {
+/// The places that sphere tracing samples on a ray up to where it ended, part by part: in the parts whose boxes it crosses, or,
+/// if it misses all of them, in all.
+fn replayed<'a>(ray: &Ray, outcome: &Outcome, parts: &[Part<'a>]) -> Vec<Sample<'a>> {
+    let end = match outcome.verdict {
+        Verdict::Hit => outcome.t,
+        Verdict::Miss | Verdict::Unknown => ray.t_max,
+    };
+    let mut samples = Vec::new();
+    let marched = || {
         parts
             .iter()
             .filter(|part| part.takes_steps)
             .map(|part| &**part.node)
     };
-    for part in parts() {
+    for part in marched() {
         let bounds = part.bounds();
         if let Some((from, to)) = crossing(ray, &bounds) {
-            look(ray, part, from, to, &mut best);
+            replay(ray, part, from, to.min(end), &mut samples);
         } else if !bounds.is_finite() {
-            look(ray, part, 0.0, ray.t_max, &mut best);
+            replay(ray, part, 0.0, end, &mut samples);
         }
     }
-    if best.is_none() {
-        parts().for_each(|part| look(ray, part, 0.0, ray.t_max, &mut best));
+    if samples.is_empty() {
+        marched().for_each(|part| replay(ray, part, 0.0, end, &mut samples));
     }
-    best.map(|(_, part, p)| (part, p))
+    samples
 }
 
-/// Looks for a closer pass of `part` on a stretch of a ray.
-fn look<'a>(
-    ray: &Ray,
-    part: &'a Node,
-    from: f64,
-    to: f64,
-    best: &mut Option<(f64, &'a Node, [f64; 3])>,
-) {
+/// Adds the places that sphere tracing samples in a part on a stretch of a ray.
+fn replay<'a>(ray: &Ray, part: &'a Node, from: f64, to: f64, samples: &mut Vec<Sample<'a>>) {
     let constant = if part.lipschitz().is_finite() {
         part.lipschitz()
     } else {
@@ -148,14 +175,10 @@ fn look<'a>(
     for _ in 0..LOOKS {
         let p = ray.at(t).to_array();
         let value: f64 = part.evaluate(&Vec3::splat(p));
-        let distance = value.abs() / constant;
+        samples.push((part, p));
+        // Past what it touches by a little, rather than creeping up to it.
         let width = ray.footprint.at(t).max(f64::MIN_POSITIVE);
-        let angle = distance / t.max(width);
-        if best.is_none_or(|(least, ..)| angle < least) {
-            *best = Some((angle, part, p));
-        }
-        // Past the surface by a little, rather than creeping up to it.
-        t += distance.max(0.5 * width);
+        t += (value.abs() / constant).max(0.1 * width);
         if t.is_nan() || t > to {
             return;
         }
@@ -184,7 +207,10 @@ fn crossing(ray: &Ray, bounds: &Bounds) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::catalogue::{AnyModifier, AnyPrimitive, Cuboid, Sphere, Translate};
+    use crate::catalogue::{
+        AnyBlend, AnyModifier, AnyPrimitive, Combination, Cuboid, Operation, Smooth, Sphere,
+        Translate,
+    };
     use crate::scene::{Camera, Mark, Method, Place, Scene, Settings};
     use glam::DVec3;
 
@@ -247,6 +273,68 @@ mod tests {
         };
         assert_eq!(of(3), ("sphere".into(), half(true)));
         assert_eq!(of(7), ("box".into(), half(false)));
+    }
+
+    #[test]
+    fn steps_past_one_shape_to_another_are_put_down_to_both() {
+        // Rays graze a ball on their way to a wall; both are in one part.
+        let (ball, wall) = (
+            placed(AnyPrimitive::Sphere(Sphere::new(1.0)), 0.0, 3),
+            placed(
+                AnyPrimitive::Cuboid(Cuboid::new([0.4, 8.0, 8.0], 0.1)),
+                6.0,
+                7,
+            ),
+        );
+        let operation = Operation::Union;
+        let blend = AnyBlend::Smooth(Smooth::new(0.1));
+        let scene = Scene {
+            shown: vec![
+                Node::combination(Combination { operation, blend }, vec![ball, wall]).unwrap(),
+            ],
+            camera: Camera {
+                eye: DVec3::new(-6.0, 1.2, 0.0),
+                at: DVec3::new(6.0, 1.2, 0.0),
+                ..Camera::default()
+            },
+            settings: Settings {
+                size: [9, 1],
+                method: Method::Sphere,
+                ..Settings::default()
+            },
+            ..Scene::default()
+        };
+        let world = World::new(&scene).unwrap();
+        let hits = Hits::of(&scene, &world, 1);
+        let effort = effort(&hits, &world);
+        let of = |line: u32| {
+            let found = effort
+                .iter()
+                .find(|(cause, _)| cause.place == Some(("a.sdf".into(), line)));
+            found.map_or(0, |(_, share)| share.steps)
+        };
+        let total: u64 = hits.outcomes.iter().map(|o| u64::from(o.steps)).sum();
+        assert_eq!(of(3) + of(7), total);
+        assert!(
+            of(3) > total / 4 && of(7) > total / 8,
+            "{} and {}",
+            of(3),
+            of(7)
+        );
+    }
+
+    #[test]
+    fn shares_are_whole_and_add_up() {
+        let named = |kind: &str| Cause {
+            place: None,
+            kind: kind.into(),
+            name: None,
+        };
+        let weights = || vec![(named("a"), 1), (named("b"), 3), (named("c"), 4)];
+        let shares = |steps| apportioned(steps, weights()).into_iter().map(|(_, n)| n);
+        assert_eq!(shares(8).collect::<Vec<_>>(), [1, 3, 4]);
+        assert_eq!(shares(4).collect::<Vec<_>>(), [1, 1, 2]);
+        (0..100).for_each(|steps| assert_eq!(shares(steps).sum::<u64>(), steps));
     }
 
     #[test]

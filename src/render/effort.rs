@@ -228,7 +228,7 @@ mod tests {
         )
     }
 
-    /// A ball to the left, a cube to the right: each has the steps of its half of the picture, and all add up.
+    /// A ball to the left, a cube to the right: each has about the steps of its half of the picture, and all add up.
     #[test]
     fn steps_are_put_down_to_what_rays_hit_or_pass() {
         let scene = Scene {
@@ -271,8 +271,19 @@ mod tests {
                 .map(|(cause, share)| (cause.kind.clone(), share.steps))
                 .unwrap()
         };
-        assert_eq!(of(3), ("sphere".into(), half(true)));
-        assert_eq!(of(7), ("box".into(), half(false)));
+        let ((ball, left), (cube, right)) = (of(3), of(7));
+        assert_eq!((ball.as_str(), cube.as_str()), ("sphere", "box"));
+        // Rays that miss both pass both: a tenth of the steps may be the other's.
+        assert!(
+            left.abs_diff(half(true)) < total / 10,
+            "{left} of {}",
+            half(true)
+        );
+        assert!(
+            right.abs_diff(half(false)) < total / 10,
+            "{right} of {}",
+            half(false)
+        );
     }
 
     #[test]

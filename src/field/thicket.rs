@@ -91,8 +91,13 @@ impl Sifted {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Thinned {
     branch: Branch,
+}
+
+impl Thinned {
     /// How many leaves are left.
-    pub leaves: usize,
+    pub fn leaves(&self) -> usize {
+        count(&self.branch)
+    }
 }
 
 impl Thicket {
@@ -191,10 +196,7 @@ impl Thicket {
     pub fn thinned(&self, sifted: &Sifted, lane: usize) -> Thinned {
         let has_say = |leaf: usize| sifted.says[leaf] >> lane & 1 == 1;
         let branch = left(&self.root, &has_say).expect("some leaf has a say");
-        Thinned {
-            leaves: count(&branch),
-            branch,
-        }
+        Thinned { branch }
     }
 
     /// The closure of what is left.
@@ -418,7 +420,7 @@ mod tests {
             for (lane, centre) in centres.iter().enumerate() {
                 let radius = radii.0[lane];
                 let thinned = thicket.thinned(&sifted, lane);
-                (left, all) = (left + thinned.leaves, all + thicket.leaves());
+                (left, all) = (left + thinned.leaves(), all + thicket.leaves());
                 let inside = |k: usize, axis: usize| {
                     let way = place(seed * 1000 + k as u64, 1.0);
                     let length = way.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -228,7 +228,23 @@ mod tests {
         )
     }
 
-    /// A ball to the left, a cube to the right: each has about the steps of its half of the picture, and all add up.
+    /// The steps that are put down to a line, with the leaf.
+    fn of_line(effort: &[(Cause, Share)], line: u32) -> (&str, u64) {
+        let is_meant = |(cause, _): &&(Cause, Share)| cause.place == Some(("a.sdf".into(), line));
+        let (cause, share) = effort.iter().find(is_meant).unwrap();
+        (&cause.kind, share.steps)
+    }
+
+    /// The hits of a scene's rays, all their steps, and where these went.
+    fn counted(scene: &Scene) -> (Hits, u64, Vec<(Cause, Share)>) {
+        let world = World::new(scene).unwrap();
+        let hits = Hits::of(scene, &world, 1);
+        let total = hits.outcomes.iter().map(|o| u64::from(o.steps)).sum();
+        let effort = effort(&hits, &world);
+        (hits, total, effort)
+    }
+
+    /// A ball to the left, a cube to the right: each has all steps of the rays that cross its box, and all add up.
     #[test]
     fn steps_are_put_down_to_what_rays_hit_or_pass() {
         let scene = Scene {
@@ -248,42 +264,41 @@ mod tests {
             },
             ..Scene::default()
         };
-        let world = World::new(&scene).unwrap();
-        let hits = Hits::of(&scene, &world, 1);
-        let effort = effort(&hits, &world);
-        let total: u64 = hits.outcomes.iter().map(|o| u64::from(o.steps)).sum();
+        let (hits, total, effort) = counted(&scene);
         assert_eq!(
             effort.iter().map(|(_, share)| share.steps).sum::<u64>(),
             total
         );
         assert!(total > 500, "{total} steps");
-        let half = |is_left: bool| -> u64 {
-            let rays = hits.rays.iter().zip(&hits.outcomes);
-            rays.filter(|(ray, _)| (ray.direction.x < 0.0) == is_left)
-                .map(|(_, o)| u64::from(o.steps))
-                .sum()
-        };
-        let of = |line: u32| {
-            let found = effort
-                .iter()
-                .find(|(cause, _)| cause.place == Some(("a.sdf".into(), line)));
-            found
-                .map(|(cause, share)| (cause.kind.clone(), share.steps))
-                .unwrap()
-        };
-        let ((ball, left), (cube, right)) = (of(3), of(7));
-        assert_eq!((ball.as_str(), cube.as_str()), ("sphere", "box"));
-        // Rays that miss both pass both: a tenth of the steps may be the other's.
-        assert!(
-            left.abs_diff(half(true)) < total / 10,
-            "{left} of {}",
-            half(true)
-        );
-        assert!(
-            right.abs_diff(half(false)) < total / 10,
-            "{right} of {}",
-            half(false)
-        );
+        let parts: Vec<Part> = scene
+            .shown
+            .iter()
+            .map(|node| Part {
+                node,
+                takes_steps: true,
+            })
+            .collect();
+        // All steps of a ray that crosses the box of one shape are that shape's.
+        let mut own = [0; 2];
+        for (ray, outcome) in hits.rays.iter().zip(&hits.outcomes) {
+            let crosses = |half: &usize| crossing(ray, &scene.shown[*half].bounds()).is_some();
+            if let Some(half) = (0..2).find(crosses) {
+                let steps = u64::from(outcome.steps);
+                let [(cause, share)] = &causes(ray, outcome, &parts)[..] else {
+                    panic!("the boxes stand side by side");
+                };
+                assert_eq!(
+                    (cause.kind.as_str(), *share),
+                    (["sphere", "box"][half], steps)
+                );
+                own[half] += steps;
+            }
+        }
+        let ((ball, left), (cube, right)) = (of_line(&effort, 3), of_line(&effort, 7));
+        assert_eq!((ball, cube), ("sphere", "box"));
+        assert_eq!(left + right, total);
+        assert!(own[0] > 500 && own[1] > 500, "{own:?}");
+        assert!(left >= own[0] && right >= own[1]);
     }
 
     #[test]
@@ -315,23 +330,10 @@ mod tests {
             },
             ..Scene::default()
         };
-        let world = World::new(&scene).unwrap();
-        let hits = Hits::of(&scene, &world, 1);
-        let effort = effort(&hits, &world);
-        let of = |line: u32| {
-            let found = effort
-                .iter()
-                .find(|(cause, _)| cause.place == Some(("a.sdf".into(), line)));
-            found.map_or(0, |(_, share)| share.steps)
-        };
-        let total: u64 = hits.outcomes.iter().map(|o| u64::from(o.steps)).sum();
-        assert_eq!(of(3) + of(7), total);
-        assert!(
-            of(3) > total / 4 && of(7) > total / 8,
-            "{} and {}",
-            of(3),
-            of(7)
-        );
+        let (_, total, effort) = counted(&scene);
+        let [ball, wall] = [3, 7].map(|line| of_line(&effort, line).1);
+        assert_eq!(ball + wall, total);
+        assert!(ball > total / 4 && wall > total / 8, "{ball} and {wall}");
     }
 
     #[test]

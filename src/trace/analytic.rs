@@ -1,11 +1,11 @@
 //! Ray entries in closed form: sphere, plane, box, triangle.
 
 use super::Ray;
-use crate::catalogue::Bounds;
+use crate::catalogue::{Bounds, Plane, Similarity, Sphere};
 use glam::DVec3;
 
 /// Half a unit in the last place of 1: the largest relative error of one operation in f64.
-const U: f64 = 0.5 * f64::EPSILON;
+pub(super) const U: f64 = 0.5 * f64::EPSILON;
 
 /// Where a ray crosses a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,6 +45,14 @@ pub struct Ball {
 }
 
 impl Ball {
+    /// The sphere that a map makes of one about the origin.
+    pub(super) fn placed(sphere: &Sphere, map: &Similarity) -> Self {
+        Self {
+            centre: DVec3::from_array(map.outside([0.0; 3])),
+            radius: sphere.radius * map.scale,
+        }
+    }
+
     /// The box around it.
     pub fn bounds(&self) -> Bounds {
         Bounds::centred([self.radius; 3]).translate(self.centre.to_array())
@@ -65,13 +73,7 @@ impl Ball {
         let distance = foot.length();
         let h = (self.radius - distance) * (self.radius + distance);
         let half_chord = h.sqrt();
-        // The root of larger size by a sum that does not cancel, the other by their product |q|^2 - r^2.
-        let large = -b - half_chord.copysign(b);
-        let length = q.length();
-        let product = (length - self.radius) * (length + self.radius);
-        let small = if large == 0.0 { 0.0 } else { product / large };
-        let near = if b > 0.0 { large } else { small };
-        let far = if b > 0.0 { small } else { large };
+        let (near, far) = chord_ends(b, half_chord, self.radius, q.length());
         (near, far, half_chord)
     }
 
@@ -79,16 +81,7 @@ impl Ball {
     #[inline(always)]
     pub(super) fn error(&self, origin: DVec3, half_chord: f64) -> f64 {
         let size = (origin - self.centre).length() + self.radius;
-        // The foot of the perpendicular is known to a few roundings of `size`, its square to a few of size * radius.
-        // Where the ray is tangent, half the chord itself is known to the root of that only.
-        let place = 8.0 * U * size;
-        let tangent = (2.0 * self.radius * place).sqrt();
-        let chord = if half_chord > tangent {
-            half_chord
-        } else {
-            tangent
-        };
-        place * (1.0 + self.radius / chord)
+        chord_error(self.radius, half_chord, 8.0 * U * size)
     }
 
     /// Both crossings in order, where the line meets the sphere.
@@ -123,6 +116,46 @@ impl ClosedForm for Ball {
     }
 }
 
+/// Where a line comes into a circle or sphere of this `radius` and where it leaves it, in order: `along` is how far its origin
+/// lies behind the foot of the perpendicular, `length` how far from the centre.
+#[inline(always)]
+pub(super) fn chord_ends(along: f64, half_chord: f64, radius: f64, length: f64) -> (f64, f64) {
+    // The root of larger size by a sum that does not cancel, the other by their product |q|^2 - r^2.
+    let large = -along - half_chord.copysign(along);
+    let product = (length - radius) * (length + radius);
+    let small = if large == 0.0 { 0.0 } else { product / large };
+    let near = if along > 0.0 { large } else { small };
+    let far = if along > 0.0 { small } else { large };
+    (near, far)
+}
+
+/// A bound of the error of these ends, where the foot of the perpendicular is known up to `place`.
+#[inline(always)]
+pub(super) fn chord_error(radius: f64, half_chord: f64, place: f64) -> f64 {
+    // The square of the foot's distance is known to place * radius. Where the line is tangent, half the chord itself is known
+    // to the root of that only.
+    let tangent = (2.0 * radius * place).sqrt();
+    let chord = if half_chord > tangent {
+        half_chord
+    } else {
+        tangent
+    };
+    place * (1.0 + radius / chord)
+}
+
+/// The outward normal of the face that a point of the surface of a box about the origin lies on; of several, the first.
+pub(super) fn face(q: DVec3, half: DVec3) -> DVec3 {
+    let outside = (q.abs() - half).to_array();
+    let face = (1..3).fold(0, |best, axis| {
+        if outside[axis] > outside[best] {
+            axis
+        } else {
+            best
+        }
+    });
+    DVec3::AXES[face] * q[face].signum()
+}
+
 /// The distances at which a line meets a sphere, by the geometric form of the textbook: the foot of the perpendicular
 /// from the centre, then the right triangle with the radius as hypotenuse. The classical discriminant |q|^2 - (q.d)^2
 /// cancels for small far spheres; here the foot itself is measured.
@@ -147,6 +180,19 @@ pub struct HalfSpace {
     pub normal: DVec3,
     /// The distance of the plane from the origin along the normal.
     pub offset: f64,
+}
+
+impl HalfSpace {
+    /// The half-space that a map makes of one.
+    pub(super) fn placed(plane: &Plane, map: &Similarity) -> Self {
+        let unit = plane.unit_normal();
+        let normal = DVec3::from_array(map.outside_direction(unit)).normalize();
+        let foot = DVec3::from_array(map.outside(unit.map(|c| c * plane.offset)));
+        Self {
+            normal,
+            offset: normal.dot(foot),
+        }
+    }
 }
 
 impl ClosedForm for HalfSpace {
@@ -180,16 +226,7 @@ impl Block {
 
     /// The outward normal of the face that a point of the surface lies on; of several, the first.
     pub fn normal(&self, p: DVec3) -> DVec3 {
-        let q = p - self.centre;
-        let outside = (q.abs() - self.half).to_array();
-        let face = (1..3).fold(0, |best, axis| {
-            if outside[axis] > outside[best] {
-                axis
-            } else {
-                best
-            }
-        });
-        DVec3::AXES[face] * q[face].signum()
+        face(p - self.centre, self.half)
     }
 }
 

@@ -1,11 +1,8 @@
 //! Convex solids whose stretch on a ray is known in closed form.
 
-use super::analytic::{Ball, HalfSpace};
+use super::analytic::{Ball, HalfSpace, U, chord_ends, chord_error, face};
 use crate::catalogue::{AnyPrimitive, Similarity};
 use glam::DVec3;
-
-/// Half a unit in the last place of 1: the largest relative error of one operation in f64.
-const U: f64 = 0.5 * f64::EPSILON;
 
 /// The stretch of a line in a convex solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -202,17 +199,7 @@ impl Solid for Brick {
     }
 
     fn normal(&self, p: DVec3) -> DVec3 {
-        let q = self.frame.place(p);
-        let outside = (q.abs() - self.half).to_array();
-        let deeper = |best: usize, axis: usize| {
-            if outside[axis] > outside[best] {
-                axis
-            } else {
-                best
-            }
-        };
-        let face = (1..3).fold(0, deeper);
-        self.frame.axes[face] * q[face].signum()
+        self.frame.outside(face(self.frame.place(p), self.half))
     }
 }
 
@@ -246,19 +233,9 @@ impl Solid for Bar {
         let aside = (o.x * z - o.z * x).abs();
         let h = (self.radius - aside) * (self.radius + aside);
         let half_chord = h.sqrt();
-        let tangent = (2.0 * self.radius * noise).sqrt();
-        let least = if half_chord > tangent {
-            half_chord
-        } else {
-            tangent
-        };
-        let error = noise * (1.0 + self.radius / least) * scale;
-        let large = -along - half_chord.copysign(along);
+        let error = chord_error(self.radius, half_chord, noise) * scale;
         let length = (o.x * o.x + o.z * o.z).sqrt();
-        let product = (length - self.radius) * (length + self.radius);
-        let small = if large == 0.0 { 0.0 } else { product / large };
-        let near = if along > 0.0 { large } else { small };
-        let far = if along > 0.0 { small } else { large };
+        let (near, far) = chord_ends(along, half_chord, self.radius, length);
         let is_met = half_chord >= 0.0;
         let is_inside = length < self.radius;
         let around = if is_inside {
@@ -344,20 +321,9 @@ impl Convex {
     /// The solid that a primitive is under a map; none if it has no closed form.
     pub fn of(primitive: &AnyPrimitive, map: &Similarity) -> Option<Self> {
         let frame = Frame::new(map);
-        let outside = |p: [f64; 3]| DVec3::from_array(map.outside(p));
         let solid = match primitive {
-            AnyPrimitive::Sphere(s) => Self::Ball(Ball {
-                centre: outside([0.0; 3]),
-                radius: s.radius * map.scale,
-            }),
-            AnyPrimitive::Plane(p) => {
-                let normal = DVec3::from_array(map.outside_direction(p.unit_normal())).normalize();
-                let foot = outside(p.unit_normal().map(|c| c * p.offset));
-                Self::HalfSpace(HalfSpace {
-                    normal,
-                    offset: normal.dot(foot),
-                })
-            }
+            AnyPrimitive::Sphere(s) => Self::Ball(Ball::placed(s, map)),
+            AnyPrimitive::Plane(p) => Self::HalfSpace(HalfSpace::placed(p, map)),
             AnyPrimitive::Cuboid(b) if b.round == 0.0 => Self::Brick(Brick {
                 frame,
                 half: DVec3::from_array(b.size) * (0.5 * map.scale),

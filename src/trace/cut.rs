@@ -1,11 +1,11 @@
-//! Convex solids, and hard combinations of them, in closed form: where a ray enters what is left of solids that are united, cut with one
-//! another, or taken from one another.
+//! Convex solids, and hard combinations of them, in closed form: where a ray enters what is left of solids that are united,
+//! cut with one another, or taken from one another.
 //!
 //! Each solid has one chord on a ray. A ray at `t` is inside of a combination, or goes on to the next place where it is: in a
 //! union the nearest of its children's; in an intersection, and with what is taken away turned inside out, to where no child
 //! sends it any farther. So rooms, which are concave, are left by the exits of what was taken away. Where a surface that leads
-//! in and one that leads out lie so close on a ray that rounding decides their order, nothing is said, and the ray is marched. Sources: Roth 1982 for chords
-//! of combinations; Whitted rays that start on a surface leave it first.
+//! in and one that leads out lie so close on a ray that rounding decides their order, nothing is said, and the ray is marched.
+//! Source: Roth 1982 for chords of combinations.
 
 #![allow(
     clippy::needless_range_loop,
@@ -63,11 +63,11 @@ struct Chords {
     doubt: Lane,
 }
 
-/// What became of a ray.
+/// The hit of a ray.
 pub(super) struct Found {
     /// The ray's number in the bundle.
     pub ray: u32,
-    /// Where it hits; infinite where it does not.
+    /// Where it is.
     pub t: f64,
     /// A bound of the error.
     pub error: f64,

@@ -2,7 +2,7 @@
 
 use super::part::materials;
 use crate::catalogue::{AnyBlend, Combination, Operation};
-use crate::scene::{Material, Node};
+use crate::scene::{Fault, Material, Node};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -27,15 +27,23 @@ pub(super) fn joined(pieces: Vec<Arc<Node>>) -> Vec<Arc<Node>> {
 
 /// The body of these pieces; the pieces themselves where it cannot be made.
 fn united(pieces: &[Arc<Node>], members: &[usize]) -> Vec<Arc<Node>> {
+    let nodes = members.iter().map(|i| pieces[*i].clone()).collect();
+    match hard_union(nodes) {
+        Ok(body) => vec![body],
+        Err(_) => members.iter().map(|i| pieces[*i].clone()).collect(),
+    }
+}
+
+/// The hard union of these shapes.
+///
+/// # Errors
+/// As [`Node::combination`].
+pub(super) fn hard_union(nodes: Vec<Arc<Node>>) -> Result<Arc<Node>, Fault> {
     let union = Combination {
         operation: Operation::Union,
         blend: AnyBlend::HARD,
     };
-    let nodes = members.iter().map(|i| pieces[*i].clone()).collect();
-    match Node::combination(union, nodes) {
-        Ok(body) => vec![body],
-        Err(_) => members.iter().map(|i| pieces[*i].clone()).collect(),
-    }
+    Node::combination(union, nodes)
 }
 
 /// For each piece the first piece of its body, found by a sweep along x.

@@ -321,18 +321,8 @@ fn entry(node: &Node) -> Option<PartKind> {
     };
     let outside = |p: [f64; 3]| DVec3::from_array(map.outside(p));
     match primitive {
-        AnyPrimitive::Sphere(s) => Some(PartKind::Ball(Ball {
-            centre: outside([0.0; 3]),
-            radius: s.radius * map.scale,
-        })),
-        AnyPrimitive::Plane(p) => {
-            let normal = DVec3::from_array(map.outside_direction(p.unit_normal())).normalize();
-            let foot = outside(p.unit_normal().map(|c| c * p.offset));
-            Some(PartKind::HalfSpace(HalfSpace {
-                normal,
-                offset: normal.dot(foot),
-            }))
-        }
+        AnyPrimitive::Sphere(s) => Some(PartKind::Ball(Ball::placed(s, &map))),
+        AnyPrimitive::Plane(p) => Some(PartKind::HalfSpace(HalfSpace::placed(p, &map))),
         AnyPrimitive::Cuboid(b) if b.round == 0.0 && map.is_translation() => {
             Some(PartKind::Block(Block {
                 centre: outside([0.0; 3]),

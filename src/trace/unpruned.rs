@@ -1,9 +1,9 @@
 //! Worlds without pruning, for studies of what it saves.
 
+use super::join::hard_union;
 use super::method::Demands;
 use super::part::Part;
 use super::world::World;
-use crate::catalogue::{AnyBlend, Combination, Operation};
 use crate::field::Level;
 use crate::scene::{Fault, Node, Settings};
 use std::sync::Arc;
@@ -16,11 +16,7 @@ pub fn union(shown: &[Arc<Node>]) -> Result<Arc<Node>, Fault> {
     if let [only] = shown {
         return Ok(only.clone());
     }
-    let union = Combination {
-        operation: Operation::Union,
-        blend: AnyBlend::HARD,
-    };
-    Node::combination(union, shown.to_vec())
+    hard_union(shown.to_vec())
 }
 
 impl World {

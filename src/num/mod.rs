@@ -3,6 +3,7 @@
 //! A distance function is written once over [`Number`]; which type it runs on decides what comes out: `f64` a value,
 //! [`Lanes`] many values at once, [`Dual`] a value with exact derivatives, [`Interval`] the range over a region.
 
+mod columns;
 mod dual;
 mod float;
 mod interval;
@@ -17,6 +18,7 @@ mod scalar;
 mod steep;
 mod vector;
 
+pub use columns::Columns;
 pub use dual::Dual;
 pub use interval::Interval;
 pub use lanes::{F32x64, F64x32, Lanes};

@@ -1,6 +1,8 @@
 //! What the samples of a block of pixels add up to: only what is asked for.
 
 use super::Channel;
+use super::film::Patch;
+use crate::num::Columns;
 use crate::shade::Received;
 use crate::trace::{Outcomes, Verdict};
 use glam::DVec3;
@@ -14,8 +16,8 @@ pub(super) struct Exposure {
 
 /// What one channel needs, for each pixel.
 enum Sum {
-    Beauty(Vec<DVec3>),
-    Color(Vec<DVec3>),
+    Beauty(Columns<3>),
+    Color(Columns<3>),
     /// The distance of the nearest hit; infinite where there is none.
     Depth(Vec<f64>),
     /// The normal of the nearest hit, and its distance.
@@ -33,8 +35,8 @@ impl Exposure {
     pub fn new(channels: &[Channel], pixels: usize) -> Self {
         let far = f64::INFINITY;
         let sum = |channel: &Channel| match channel {
-            Channel::Beauty => Sum::Beauty(vec![DVec3::ZERO; pixels]),
-            Channel::Color => Sum::Color(vec![DVec3::ZERO; pixels]),
+            Channel::Beauty => Sum::Beauty(Columns::zeros(pixels)),
+            Channel::Color => Sum::Color(Columns::zeros(pixels)),
             Channel::Depth => Sum::Depth(vec![far; pixels]),
             Channel::Normal => Sum::Normal(vec![(DVec3::ZERO, far); pixels]),
             Channel::Steps => Sum::Steps(vec![0; pixels]),
@@ -86,10 +88,10 @@ impl Exposure {
     }
 
     /// Adds the flat colours of a sample of each pixel.
-    pub fn add_colors(&mut self, colors: &[DVec3]) {
+    pub fn add_colors(&mut self, colors: &Columns<3>) {
         for sum in &mut self.sums {
             if let Sum::Color(sums) = sum {
-                each(sums, |i, sum| *sum += colors[i]);
+                add(sums, colors);
             }
         }
     }
@@ -101,7 +103,7 @@ impl Exposure {
         });
         for sum in &mut self.sums {
             if let Sum::Beauty(sums) = sum {
-                each(sums, |i, sum| *sum += light.radiance[i]);
+                add(sums, &light.radiance);
             }
         }
     }
@@ -114,33 +116,38 @@ impl Exposure {
             .count()
     }
 
-    /// The numbers of each channel, pixel by pixel, of that many samples.
-    pub fn developed(&self, samples: u32) -> Vec<Vec<f32>> {
+    /// Records what that many samples of these pixels add up to.
+    pub fn develop(&self, samples: u32, pixels: &[[u32; 2]], patch: &mut Patch) {
         let n = f64::from(samples);
-        let is_hit = |depth: f64| depth < f64::INFINITY;
-        let numbers = |sum: &Sum| match sum {
-            Sum::Beauty(sums) | Sum::Color(sums) => triples(sums.iter().map(|sum| *sum / n)),
-            Sum::Depth(depths) => depths.iter().map(|depth| *depth as f32).collect(),
-            Sum::Normal(normals) => triples(normals.iter().map(|(normal, _)| *normal)),
-            Sum::Steps(sums) | Sum::Evaluations(sums) => {
-                sums.iter().map(|sum| (*sum as f64 / n) as f32).collect()
+        let mean = |sum: f64| (if samples == 1 { sum } else { sum / n }) as f32;
+        for (k, sum) in self.sums.iter().enumerate() {
+            match sum {
+                Sum::Beauty(sums) | Sum::Color(sums) => {
+                    let [r, g, b] = sums.columns();
+                    patch.record(k, pixels, |i| [mean(r[i]), mean(g[i]), mean(b[i])]);
+                }
+                Sum::Depth(depths) => patch.record(k, pixels, |i| [depths[i] as f32]),
+                Sum::Normal(normals) => {
+                    patch.record(k, pixels, |i| normals[i].0.as_vec3().to_array());
+                }
+                Sum::Steps(sums) | Sum::Evaluations(sums) => {
+                    patch.record(k, pixels, |i| [mean(sums[i] as f64)]);
+                }
+                Sum::Verdict(hits) => patch.record(k, pixels, |i| {
+                    let verdict = match (self.is_unknown[i], hits[i]) {
+                        (true, _) => 2.0,
+                        (false, true) => 1.0,
+                        (false, false) => 0.0,
+                    };
+                    [verdict]
+                }),
+                Sum::Object(objects) => patch.record(k, pixels, |i| {
+                    let (part, depth) = objects[i];
+                    let is_hit = depth < f64::INFINITY;
+                    [if is_hit { part as f32 } else { -1.0 }]
+                }),
             }
-            Sum::Verdict(hits) => {
-                let verdict = |(is_unknown, is_hit): (&bool, &bool)| match (is_unknown, is_hit) {
-                    (true, _) => 2.0,
-                    (false, true) => 1.0,
-                    (false, false) => 0.0,
-                };
-                self.is_unknown.iter().zip(hits).map(verdict).collect()
-            }
-            Sum::Object(objects) => {
-                let number = |(part, depth): &(u32, f64)| {
-                    if is_hit(*depth) { *part as f32 } else { -1.0 }
-                };
-                objects.iter().map(number).collect()
-            }
-        };
-        self.sums.iter().map(numbers).collect()
+        }
     }
 }
 
@@ -150,10 +157,9 @@ fn each<T>(sums: &mut [T], mut change: impl FnMut(usize, &mut T)) {
         .for_each(|(i, sum)| change(i, sum));
 }
 
-fn triples(vectors: impl ExactSizeIterator<Item = DVec3>) -> Vec<f32> {
-    let mut numbers = Vec::with_capacity(3 * vectors.len());
-    for v in vectors {
-        numbers.extend_from_slice(&[v.x as f32, v.y as f32, v.z as f32]);
+/// Adds columns to others.
+fn add(sums: &mut Columns<3>, more: &Columns<3>) {
+    for (sum, more) in sums.columns_mut().into_iter().zip(more.columns()) {
+        sum.iter_mut().zip(more).for_each(|(sum, x)| *sum += x);
     }
-    numbers
 }

@@ -69,27 +69,31 @@ impl Film {
             .map_or(&[], |plane| &plane.values[pixel * n..][..n])
     }
 
-    /// The film in bands of so many rows, from the top, each of which can be recorded by itself.
-    pub(super) fn bands(&mut self, rows: u32) -> Vec<Band<'_>> {
-        let (width, height) = (self.width, self.height);
-        let firsts = (0..height).step_by(rows.max(1) as usize);
-        let band = |first| Band {
-            first,
-            rows: rows.min(height - first),
-            width,
-            planes: Vec::new(),
+    /// The film in patches of this width and height, in rows from the top, each of which can be recorded by itself; those at the
+    /// right and lower edge may be smaller.
+    pub(super) fn patches(&mut self, side: [u32; 2]) -> Vec<Patch<'_>> {
+        let size = [self.width as usize, self.height as usize];
+        let side = [0, 1].map(|axis| (side[axis] as usize).clamp(1, size[axis].max(1)));
+        let [across, down] = [0, 1].map(|axis| size[axis].div_ceil(side[axis]));
+        let width = size[0];
+        let patch = |k: usize| Patch {
+            corner: [(k % across * side[0]) as u32, (k / across * side[1]) as u32],
+            planes: Vec::with_capacity(self.planes.len()),
         };
-        let mut bands: Vec<Band> = firsts.map(band).collect();
-        for plane in &mut self.planes {
+        let mut patches: Vec<Patch> = (0..across * down).map(patch).collect();
+        for (k, plane) in self.planes.iter_mut().enumerate() {
+            for patch in &mut patches {
+                patch.planes.push(Vec::with_capacity(side[1]));
+            }
             let n = plane.channel.components();
-            let mut rest = &mut plane.values[..];
-            for band in &mut bands {
-                let (numbers, after) = rest.split_at_mut((band.rows * width) as usize * n);
-                band.planes.push((n, numbers));
-                rest = after;
+            for (j, row) in plane.values.chunks_exact_mut(width * n).enumerate() {
+                let beside = &mut patches[j / side[1] * across..];
+                for (patch, piece) in beside.iter_mut().zip(row.chunks_mut(side[0] * n)) {
+                    patch.planes[k].push(piece);
+                }
             }
         }
-        bands
+        patches
     }
 
     fn index(&self, i: u32, j: u32) -> usize {
@@ -101,38 +105,59 @@ impl Film {
     }
 }
 
-/// Some rows of a film.
-pub(super) struct Band<'a> {
-    first: u32,
-    rows: u32,
-    width: u32,
-    /// For each channel how many numbers a pixel has, and the numbers.
-    planes: Vec<(usize, &'a mut [f32])>,
+/// A rectangle of a film.
+pub(super) struct Patch<'a> {
+    /// Its upper left pixel.
+    corner: [u32; 2],
+    /// For each channel its rows.
+    planes: Vec<Vec<&'a mut [f32]>>,
 }
 
-impl Band<'_> {
-    /// Records some pixels, given by column and row of the film, with the numbers of each of its channels.
+impl Patch<'_> {
+    /// Records the `N` numbers of channel number `k`, counted from 0, for some pixels, given by column and row of the film.
     ///
     /// # Panics
-    /// If a pixel is not in the band.
-    pub fn record(&mut self, pixels: &[[u32; 2]], numbers: &[Vec<f32>]) {
-        let place = |&[i, j]: &[u32; 2]| {
-            let is_here = i < self.width && j >= self.first && j - self.first < self.rows;
-            assert!(is_here, "the pixel is in the band");
-            (j - self.first) as usize * self.width as usize + i as usize
-        };
-        let places: Vec<usize> = pixels.iter().map(place).collect();
-        for ((n, plane), numbers) in self.planes.iter_mut().zip(numbers) {
-            match n {
-                3 => put(plane.as_chunks_mut::<3>().0, &places, numbers.as_chunks().0),
-                _ => put(plane, &places, numbers),
-            }
+    /// If a pixel is not on the patch.
+    pub fn record<const N: usize>(
+        &mut self,
+        k: usize,
+        pixels: &[[u32; 2]],
+        numbers: impl Fn(usize) -> [f32; N],
+    ) {
+        let [left, top] = self.corner;
+        let rows = &mut self.planes[k];
+        for (i, [column, row]) in pixels.iter().enumerate() {
+            let row = rows[(row - top) as usize].as_chunks_mut::<N>().0;
+            row[(column - left) as usize] = numbers(i);
         }
     }
 }
 
-fn put<T: Copy>(pixels: &mut [T], places: &[usize], numbers: &[T]) {
-    for (place, number) in places.iter().zip(numbers) {
-        pixels[*place] = *number;
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patches_cover_the_film() {
+        let channels = [Channel::Beauty, Channel::Depth];
+        for side in [[1, 1], [3, 2], [4, 8], [u32::MAX, u32::MAX]] {
+            let (width, height) = (7, 5);
+            let mut film = Film::new([width, height], &channels);
+            for patch in &mut film.patches(side) {
+                let [left, top] = patch.corner;
+                let rows = top..height.min(top.saturating_add(side[1]));
+                let columns = left..width.min(left.saturating_add(side[0]));
+                let pixels = rows.flat_map(|j| columns.clone().map(move |i| [i, j]));
+                let pixels: Vec<[u32; 2]> = pixels.collect();
+                let number = |k: usize| (pixels[k][0] + 10 * pixels[k][1]) as f32 + 1.0;
+                patch.record(0, &pixels, |k| [number(k), 0.0, -number(k)]);
+                patch.record(1, &pixels, |k| [2.0 * number(k)]);
+            }
+            for (i, j) in (0..height).flat_map(|j| (0..width).map(move |i| (i, j))) {
+                let number = (i + 10 * j) as f32 + 1.0;
+                assert_eq!(film.at(Channel::Beauty, i, j), [number, 0.0, -number]);
+                assert_eq!(film.at(Channel::Depth, i, j), [2.0 * number]);
+            }
+        }
     }
 }

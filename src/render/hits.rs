@@ -31,7 +31,8 @@ impl Hits {
             let middle = |pixel: &[u32; 2]| pixel.map(f64::from);
             let mut hits = Self::default();
             for block in tile.blocks() {
-                let rays = view.rays(block.iter().map(middle));
+                let places: Vec<[f64; 2]> = block.iter().map(middle).collect();
+                let rays = view.rays(&places);
                 let outcomes = whitted.first_hits(&rays, &mut hits.census);
                 hits.outcomes.extend(outcomes.iter());
                 hits.rays.extend(rays.iter());

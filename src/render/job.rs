@@ -1,6 +1,6 @@
 //! The whole picture: tiles on threads.
 
-use super::film::Band;
+use super::film::Patch;
 use super::statistics::{Layout, Tally};
 use super::tile::{Shared, Tile};
 use super::{Channel, Film, Statistics, View};
@@ -101,27 +101,24 @@ pub fn render<S: Surfaces + ?Sized>(scene: &Scene, world: &S, options: &RenderOp
         channels: &channels,
     };
     let tiles = Tile::all(settings.size, options.tile.max(1));
-    let rows = tiles.first().map_or(1, Tile::rows);
-    let bands: Vec<Mutex<Band>> = film.bands(rows).into_iter().map(Mutex::new).collect();
+    let side = tiles.first().map_or([1; 2], Tile::size);
+    let patches = film.patches(side).into_iter().map(Mutex::new);
+    let jobs: Vec<(&Tile, Mutex<Patch>)> = tiles.iter().zip(patches).collect();
     let result = Mutex::new(Recording::default());
-    let work = |tile: &Tile| {
+    let work = |(tile, patch): &(&Tile, Mutex<Patch>)| {
         if options.is_cancelled() {
             return;
         }
-        let (blocks, cost) = tile.render(&shared);
-        let band = bands[(tile.top() / rows) as usize].lock();
-        let done = match (band, result.lock()) {
-            (Ok(mut band), Ok(mut recording)) => {
-                let done = recording.add(cost);
-                drop(recording);
-                for (pixels, numbers) in &blocks {
-                    band.record(pixels, numbers);
-                }
-                done
-            }
-            // Another thread panicked; rayon passes that on.
-            _ => return,
+        // Another thread panicked if either is poisoned; rayon passes that on.
+        let Ok(mut patch) = patch.lock() else {
+            return;
         };
+        let cost = tile.render(&shared, &mut patch);
+        let Ok(mut recording) = result.lock() else {
+            return;
+        };
+        let done = recording.add(cost);
+        drop(recording);
         if let Some(progress) = options.progress {
             progress(Progress {
                 done,
@@ -129,8 +126,8 @@ pub fn render<S: Surfaces + ?Sized>(scene: &Scene, world: &S, options: &RenderOp
             });
         }
     };
-    let (_, threads) = on_threads(options.threads, &tiles, work);
-    drop(bands);
+    let (_, threads) = on_threads(options.threads, &jobs, work);
+    drop(jobs);
     let Recording { tally, done } = result
         .into_inner()
         .unwrap_or_else(|poisoned| poisoned.into_inner());

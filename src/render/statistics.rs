@@ -113,6 +113,17 @@ impl Histogram {
         }
     }
 
+    /// Counts many rays.
+    pub fn add_all(&mut self, steps: &[u32]) {
+        // Most rays are met in closed form, and take none.
+        let some = steps.iter().filter(|steps| **steps != 0).count();
+        self.few[0] += (steps.len() - some) as u64;
+        if some > 0 {
+            let some = steps.iter().filter(|steps| **steps != 0);
+            some.for_each(|steps| self.add(*steps));
+        }
+    }
+
     /// The numbers of steps that occurred, each with its number of rays, in order.
     fn counts(&self) -> impl Iterator<Item = (u32, u64)> {
         let few = (0..).zip(self.few).filter(|(_, rays)| *rays > 0);

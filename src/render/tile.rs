@@ -1,11 +1,12 @@
 //! One tile of the picture, from its rays to its pixels.
 
 use super::exposure::Exposure;
+use super::film::Patch;
 use super::statistics::Tally;
 use super::{Channel, View, sampling};
 use crate::scene::Settings;
 use crate::shade::{Surfaces, Whitted};
-use crate::trace::Rays;
+use crate::trace::{Outcomes, Rays};
 use std::time::Instant;
 
 /// What all tiles of a picture share.
@@ -20,9 +21,6 @@ pub struct Shared<'a, S: Surfaces + ?Sized> {
 /// The side of a block, in pixels: the rays of a block are traced together, with all that follows from them, so that
 /// what they find does not depend on how blocks are put together to tiles.
 const BLOCK: u32 = 16;
-
-/// The numbers of each channel for the pixels of a block, which are given by column and row.
-pub type Developed = (Vec<[u32; 2]>, Vec<Vec<f32>>);
 
 /// A square of blocks.
 #[derive(Clone, Copy, Debug)]
@@ -43,14 +41,9 @@ impl Tile {
         corners([0, 0], size, side).map(tile).collect()
     }
 
-    /// The uppermost row.
-    pub fn top(&self) -> u32 {
-        self.corner[1]
-    }
-
-    /// How many rows there are.
-    pub fn rows(&self) -> u32 {
-        self.end[1] - self.corner[1]
+    /// The width and height.
+    pub fn size(&self) -> [u32; 2] {
+        [0, 1].map(|axis| self.end[axis] - self.corner[axis])
     }
 
     /// The pixels of each block: columns and rows, in the order in which they are traced.
@@ -59,23 +52,23 @@ impl Tile {
         corners(self.corner, end, BLOCK).map(move |corner| block(corner, end))
     }
 
-    /// The blocks' numbers, and what they cost.
-    pub fn render<S: Surfaces + ?Sized>(&self, shared: &Shared<S>) -> (Vec<Developed>, Tally) {
+    /// Records the tile on its patch of the film; gives what it cost.
+    pub fn render<S: Surfaces + ?Sized>(&self, shared: &Shared<S>, patch: &mut Patch) -> Tally {
         let start = Instant::now();
         let mut tally = Tally::default();
         let samples = shared.settings.samples.max(1);
-        let expose = |block: Vec<[u32; 2]>| {
+        let mut desk = Desk::default();
+        for block in self.blocks() {
             let mut exposure = Exposure::new(shared.channels, block.len());
             for sample in 0..samples {
-                let rays = sample_rays(shared, &block, sample);
-                expose(shared, &rays, &mut exposure, &mut tally);
+                desk.aim(shared, &block, sample);
+                desk.expose(shared, &mut exposure, &mut tally);
             }
             tally.unknown_pixels += exposure.unknown() as u64;
-            (block, exposure.developed(samples))
-        };
-        let blocks = self.blocks().map(expose).collect();
+            exposure.develop(samples, &block, patch);
+        }
         tally.busy = start.elapsed();
-        (blocks, tally)
+        tally
     }
 }
 
@@ -85,64 +78,78 @@ fn corners(from: [u32; 2], to: [u32; 2], side: u32) -> impl Iterator<Item = [u32
     steps(1).flat_map(move |y| steps(0).map(move |x| [x, y]))
 }
 
-/// The pixels of a block along Morton's curve, those beyond `end` left out: each run of 64 is a square of 8 x 8,
-/// so that what is traced together lies together.
+/// The places in a block along Morton's curve: each run of 64 is a square of 8 x 8, so that what is traced together lies
+/// together.
+const ORDER: [[u8; 2]; (BLOCK * BLOCK) as usize] = {
+    let mut order = [[0; 2]; (BLOCK * BLOCK) as usize];
+    let mut code = 0;
+    while code < order.len() {
+        let mut bit = 0;
+        while bit < BLOCK.ilog2() {
+            order[code][0] |= ((code >> (2 * bit) & 1) << bit) as u8;
+            order[code][1] |= ((code >> (2 * bit + 1) & 1) << bit) as u8;
+            bit += 1;
+        }
+        code += 1;
+    }
+    order
+};
+
+/// The pixels of a block, those beyond `end` left out.
 fn block(corner: [u32; 2], end: [u32; 2]) -> Vec<[u32; 2]> {
-    (0..u64::from(BLOCK * BLOCK))
-        .map(|code| {
-            [
-                corner[0] + even_bits(code),
-                corner[1] + even_bits(code >> 1),
-            ]
-        })
-        .filter(|[i, j]| *i < end[0] && *j < end[1])
-        .collect()
-}
-
-/// Adds one sample of each pixel of a block.
-fn expose<S: Surfaces + ?Sized>(
-    shared: &Shared<S>,
-    rays: &Rays,
-    exposure: &mut Exposure,
-    tally: &mut Tally,
-) {
-    let outcomes = shared.whitted.first_hits(rays, &mut tally.census);
-    exposure.add_hits(&outcomes);
-    outcomes
-        .steps
-        .iter()
-        .for_each(|steps| tally.steps.add(*steps));
-    if shared.channels.contains(&Channel::Color) {
-        exposure.add_colors(&shared.whitted.flat_colors(rays, &outcomes));
+    let [left, top] = corner;
+    let pixels = ORDER.map(|[i, j]| [left + u32::from(i), top + u32::from(j)]);
+    if left + BLOCK <= end[0] && top + BLOCK <= end[1] {
+        return pixels.to_vec();
     }
-    if shared.channels.contains(&Channel::Beauty) {
-        exposure.add_light(&shared.whitted.light(rays, &outcomes, &mut tally.census));
+    let is_within = |[i, j]: &[u32; 2]| *i < end[0] && *j < end[1];
+    pixels.into_iter().filter(is_within).collect()
+}
+
+/// The rays of a sample of some pixels; memory that is used again for the next.
+#[derive(Default)]
+struct Desk {
+    /// Their columns and rows.
+    places: Vec<[f64; 2]>,
+    rays: Rays,
+    outcomes: Outcomes,
+}
+
+impl Desk {
+    /// Takes a sample of each of these pixels.
+    fn aim<S: Surfaces + ?Sized>(&mut self, shared: &Shared<S>, pixels: &[[u32; 2]], sample: u32) {
+        let Settings { samples, seed, .. } = *shared.settings;
+        self.places.clear();
+        let middles = pixels.iter().map(|pixel| pixel.map(f64::from));
+        self.places.extend(middles);
+        if samples > 1 {
+            for (place, pixel) in self.places.iter_mut().zip(pixels) {
+                let [dx, dy] = sampling::place(*pixel, sample, samples, seed);
+                *place = [place[0] + dx, place[1] + dy];
+            }
+        }
+        shared.view.aim(&self.places, &mut self.rays);
     }
-}
 
-/// The rays of a sample of some pixels.
-fn sample_rays<S: Surfaces + ?Sized>(shared: &Shared<S>, pixels: &[[u32; 2]], sample: u32) -> Rays {
-    let Settings { samples, seed, .. } = *shared.settings;
-    let place = |pixel: &[u32; 2]| {
-        let [dx, dy] = sampling::place(*pixel, sample, samples, seed);
-        [f64::from(pixel[0]) + dx, f64::from(pixel[1]) + dy]
-    };
-    shared.view.rays(pixels.iter().map(place))
-}
-
-/// The bits at even places, moved together: pairs, then fours, and so on.
-fn even_bits(code: u64) -> u32 {
-    const HALVES: [(u32, u64); 5] = [
-        (1, 0x3333_3333_3333_3333),
-        (2, 0x0f0f_0f0f_0f0f_0f0f),
-        (4, 0x00ff_00ff_00ff_00ff),
-        (8, 0x0000_ffff_0000_ffff),
-        (16, 0x0000_0000_ffff_ffff),
-    ];
-    let even = code & 0x5555_5555_5555_5555;
-    HALVES
-        .iter()
-        .fold(even, |x, (shift, mask)| (x | x >> shift) & mask) as u32
+    /// Adds what is seen along the rays.
+    fn expose<S: Surfaces + ?Sized>(
+        &mut self,
+        shared: &Shared<S>,
+        exposure: &mut Exposure,
+        tally: &mut Tally,
+    ) {
+        let Self { rays, outcomes, .. } = self;
+        let whitted = &shared.whitted;
+        whitted.meet_first(rays, &mut tally.census, outcomes);
+        exposure.add_hits(outcomes);
+        tally.steps.add_all(&outcomes.steps);
+        if shared.channels.contains(&Channel::Color) {
+            exposure.add_colors(&whitted.flat_colors(rays, outcomes));
+        }
+        if shared.channels.contains(&Channel::Beauty) {
+            exposure.add_light(&whitted.light(rays, outcomes, &mut tally.census));
+        }
+    }
 }
 
 #[cfg(test)]

@@ -157,8 +157,8 @@ fn picture(bytes: &[u8]) -> Option<Film> {
     let rows = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
     let mut film = Film::new(size, &[Channel::Beauty]);
     let pixels: Vec<[u32; 2]> = rows.collect();
-    for band in &mut film.bands(size[1]) {
-        band.record(&pixels, std::slice::from_ref(&values));
+    for patch in &mut film.patches(size) {
+        patch.record::<3>(0, &pixels, |i| [0, 1, 2].map(|k| values[3 * i + k]));
     }
     Some(film)
 }

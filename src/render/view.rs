@@ -43,6 +43,7 @@ impl View {
 
     /// The place on the screen of column `i` and row `j`, which may lie between pixels: in units of the distance to the
     /// screen for a perspective, in scene units otherwise.
+    #[inline(always)]
     pub fn screen(&self, i: f64, j: f64) -> [f64; 2] {
         [
             self.pixel[0] * (i - self.middle[0]),
@@ -63,21 +64,26 @@ impl View {
     }
 
     /// The rays through these places, each a column and a row: as [`View::ray`], to the bit.
-    pub fn rays(&self, places: impl Iterator<Item = [f64; 2]>) -> Rays {
-        let places: Vec<[f64; 2]> = places.map(|[i, j]| self.screen(i, j)).collect();
-        let mut rays = Rays::zeros(places.len());
+    pub fn rays(&self, places: &[[f64; 2]]) -> Rays {
+        let mut rays = Rays::default();
+        self.aim(places, &mut rays);
+        rays
+    }
+
+    /// As [`View::rays`]; what was in `rays` before is forgotten.
+    pub fn aim(&self, places: &[[f64; 2]], rays: &mut Rays) {
+        rays.resize(places.len());
         let Footprint { at_origin, spread } = self.footprint();
         let [.., ends, widths, spreads] = rays.columns_mut();
         ends.fill(f64::INFINITY);
         widths.fill(at_origin);
         spreads.fill(spread);
-        let task = Lines {
+        let lines = Lines {
             view: self,
-            places: &places,
-            rays: &mut rays,
+            places,
+            rays,
         };
-        run_at(self.level, task);
-        rays
+        run_at(self.level, lines);
     }
 
     /// Where the ray through a place of the screen starts and goes.
@@ -106,7 +112,7 @@ impl View {
 /// Finds where rays start and go.
 struct Lines<'a> {
     view: &'a View,
-    /// Their places on the screen.
+    /// Through which columns and rows.
     places: &'a [[f64; 2]],
     rays: &'a mut Rays,
 }
@@ -120,8 +126,9 @@ impl Task for Lines<'_> {
         let [ox, oy, oz, dx, dy, dz, ..] = self.rays.columns_mut();
         let (ox, oy, oz) = (&mut ox[..n], &mut oy[..n], &mut oz[..n]);
         let (dx, dy, dz) = (&mut dx[..n], &mut dy[..n], &mut dz[..n]);
-        for (i, [x, y]) in self.places.iter().enumerate() {
-            let (origin, direction) = self.view.line(*x, *y);
+        for (i, [column, row]) in self.places.iter().enumerate() {
+            let [x, y] = self.view.screen(*column, *row);
+            let (origin, direction) = self.view.line(x, y);
             (ox[i], oy[i], oz[i]) = (origin.x, origin.y, origin.z);
             (dx[i], dy[i], dz[i]) = (direction.x, direction.y, direction.z);
         }

@@ -88,3 +88,8 @@ impl AddAssign for Census {
         self.tracing += other.tracing;
     }
 }
+
+/// The sum of counts.
+pub(super) fn sum(counts: &[u32]) -> u64 {
+    counts.iter().map(|count| u64::from(*count)).sum()
+}

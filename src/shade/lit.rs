@@ -22,11 +22,18 @@ pub struct Lit {
     normal: [Column; 3],
     /// Where rays start that leave on that side.
     start: [Column; 3],
-    /// The strength of the lamp.
-    strength: Column,
-    light: Column,
-    mirror: Column,
-    halfway: Column,
+    /// The strength of the lamp, 0 where it does not shine.
+    pub strength: Column,
+    /// The cosines that decide what is seen of it, as [`Cosines`].
+    pub light: Column,
+    pub mirror: Column,
+    pub halfway: Column,
+    /// The highlights, in [0, 1].
+    pub highlight: Column,
+    /// What the hits gain from the lamp, by channel, if nothing is in the way.
+    pub gained: [Column; 3],
+    /// Whether that is anything.
+    pub is_gained: [u8; CHUNK],
     /// The way from the starts to the lamp: its unit vector, and where it ends.
     way: [Column; 3],
     end: Column,
@@ -47,6 +54,9 @@ impl Lit {
             light: column,
             mirror: column,
             halfway: column,
+            highlight: column,
+            gained: [column; 3],
+            is_gained: [0; CHUNK],
             way: [column; 3],
             end: column,
             width: column,
@@ -54,21 +64,10 @@ impl Lit {
         })
     }
 
-    /// What the lamp sends to hit number `i` of these: its strength, 0 where it does not shine, and the cosines.
-    pub fn shine(&self, i: usize) -> (f64, Cosines) {
-        let cosines = Cosines {
-            light: self.light[i],
-            mirror: self.mirror[i],
-            halfway: self.halfway[i],
-        };
-        (self.strength[i], cosines)
-    }
-
-    /// Adds the rays from these hits to the lamp.
-    pub fn shadow_rays(&self, hits: &[u32], rays: &mut Rays) {
+    /// The columns of the rays from these hits to the lamp.
+    pub fn shadow_columns(&self) -> [&Column; Rays::COLUMNS] {
         let ([a, b, c], [d, e, f]) = (&self.start, &self.way);
-        let columns = [a, b, c, d, e, f, &self.end, &self.width, &self.spread];
-        rays.pick(columns.map(|column| &column[..]), hits);
+        [a, b, c, d, e, f, &self.end, &self.width, &self.spread]
     }
 }
 

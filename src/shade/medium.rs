@@ -58,6 +58,14 @@ pub struct Crossing {
 }
 
 impl Media {
+    /// Empty space.
+    pub const EMPTY: Self = Self(None);
+
+    /// Whether it is empty space.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_none()
+    }
+
     /// The innermost medium; `None` in empty space.
     pub fn innermost(&self) -> Option<&Medium> {
         self.0.as_deref().map(|layer| &layer.medium)

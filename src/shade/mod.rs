@@ -4,6 +4,8 @@ mod attenuation;
 mod census;
 mod features;
 mod fresnel;
+mod gains;
+mod highlight;
 mod light;
 mod lit;
 mod medium;

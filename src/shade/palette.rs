@@ -2,23 +2,83 @@
 //! points at a time.
 
 use super::surface::Terms;
-use super::{Surface, Surfaces};
-use crate::field::{Level, Walked, compile_graph};
-use crate::num::{F64x32, Lanes, Vec3};
-use crate::scene::{Graph, Material, Term};
-use crate::trace::{Outcomes, Verdict};
+use super::{Surface, Surfaces, sky};
+use crate::field::{Level, Task, Walked, compile_graph, run_at};
+use crate::num::{Columns, F64x32, Lanes, Vec3};
+use crate::scene::{Graph, Material, Sky, Term};
+use crate::trace::{Outcomes, Rays, Verdict};
 use glam::DVec3;
+use std::mem;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// How many points are evaluated at a time.
 const WIDTH: usize = F64x32::WIDTH;
 
+/// How many numbers of a surface lighting reads.
+pub const LIGHTING: usize = 8;
+
+/// What lighting reads of surfaces, side by side.
+#[derive(Clone, Copy)]
+pub struct Lighting<'a> {
+    /// The colour, by channel.
+    pub color: [&'a [f64]; 3],
+    /// The share of it that is seen without light.
+    pub ambient: &'a [f64],
+    /// The share of it that is seen in light.
+    pub diffuse: &'a [f64],
+    /// The strength of the highlight.
+    pub specular: &'a [f64],
+    /// Its exponent.
+    pub shininess: &'a [f64],
+    /// The share of Blinn's highlight.
+    pub blinn: &'a [f64],
+}
+
+impl<'a> Lighting<'a> {
+    /// These columns, in the order of [`row`].
+    #[inline(always)]
+    pub fn of(columns: [&'a [f64]; LIGHTING]) -> Self {
+        let [r, g, b, ambient, diffuse, specular, shininess, blinn] = columns;
+        Self {
+            color: [r, g, b],
+            ambient,
+            diffuse,
+            specular,
+            shininess,
+            blinn,
+        }
+    }
+}
+
+/// What lighting reads of a surface.
+fn row(s: &Surface) -> [f64; LIGHTING] {
+    let [r, g, b] = s.color.to_array();
+    [
+        r,
+        g,
+        b,
+        s.ambient,
+        s.diffuse,
+        s.specular,
+        s.shininess,
+        s.blinn,
+    ]
+}
+
+/// Where there is no surface, the colour is that of the sky, and all of it is seen.
+const BACKDROP: [f64; LIGHTING] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
+
 /// A material of a scene.
 struct Swatch {
     material: Arc<Material>,
+    /// Its surface at the origin.
+    surface: Surface,
     /// The terms that differ from point to point, in the order in which a surface asks for them; none where it is the same
     /// everywhere.
     patterns: Vec<Pattern>,
+    /// Whether the colour is the only such term.
+    is_tinted: bool,
 }
 
 /// A term that differs from point to point.
@@ -31,97 +91,159 @@ struct Pattern {
 /// The materials of a scene.
 pub struct Palette {
     swatches: Vec<Swatch>,
-    /// Their surfaces, at the origin.
-    surfaces: Vec<Surface>,
 }
 
 /// No surface.
 const NONE: u32 = u32::MAX;
 
 /// The surfaces that the rays of a wave hit.
-pub struct Looks<'a> {
-    palette: &'a Palette,
+#[derive(Default)]
+pub struct Looks {
     /// Those that are met at single points.
     own: Vec<Surface>,
     /// For each ray the number of its surface: those of the palette first; [`NONE`] where nothing was hit.
     numbers: Vec<u32>,
+    /// What lighting reads of them; where nothing was hit, the colour is still to be written.
+    terms: Columns<LIGHTING>,
+    /// Rays whose surfaces have patterns, with the numbers of their materials.
+    varied: Vec<(u32, u32)>,
 }
 
 impl Palette {
     /// The palette of these materials.
     pub fn new(materials: &[Arc<Material>]) -> Self {
         let level = Level::best();
-        let mut swatches = Vec::with_capacity(materials.len());
-        let mut surfaces = Vec::with_capacity(materials.len());
-        for material in materials {
+        let swatch = |material: &Arc<Material>| {
             let mut graphs = Graphs(Vec::new());
-            surfaces.push(Surface::of_terms(material, &mut graphs));
+            let surface = Surface::of_terms(material, &mut graphs);
             let pattern = |graph: Arc<Graph>| Pattern {
                 walk: compile_graph(&graph, level),
                 outputs: if graph.outputs() == 3 { 3 } else { 1 },
             };
-            swatches.push(Swatch {
+            let has_color = matches!(material.color, Term::Pattern(_));
+            Swatch {
                 material: material.clone(),
+                surface,
+                is_tinted: has_color && graphs.0.len() == 1,
                 patterns: graphs.0.into_iter().map(pattern).collect(),
-            });
+            }
+        };
+        Self {
+            swatches: materials.iter().map(swatch).collect(),
         }
-        Self { swatches, surfaces }
     }
 
-    /// The surfaces that rays with these outcomes hit.
-    pub fn looks<S: Surfaces + ?Sized>(&self, surfaces: &S, outcomes: &Outcomes) -> Looks<'_> {
-        let mut looks = Looks {
-            palette: self,
-            own: Vec::new(),
-            numbers: vec![NONE; outcomes.len()],
-        };
-        let mut varied: Vec<(usize, u32)> = Vec::new();
-        for i in 0..outcomes.len() {
-            if outcomes.verdict[i] != Verdict::Hit {
+    /// Finds the surfaces that rays with these outcomes hit.
+    pub fn look<S: Surfaces + ?Sized>(&self, surfaces: &S, outcomes: &Outcomes, looks: &mut Looks) {
+        looks.own.clear();
+        looks.numbers.clear();
+        looks.varied.clear();
+        let mut last = None;
+        for (i, verdict) in outcomes.verdict.iter().enumerate() {
+            if *verdict != Verdict::Hit {
+                looks.numbers.push(NONE);
                 continue;
             }
             let part = outcomes.part[i];
-            match surfaces.sole(part) {
-                Some(number) if self.swatches[number].patterns.is_empty() => {
-                    looks.numbers[i] = number as u32;
+            // Neighbours are mostly on the same part.
+            let sole = match last {
+                Some((same, sole)) if same == part => sole,
+                _ => surfaces.sole(part),
+            };
+            last = Some((part, sole));
+            let number = match sole {
+                Some(number) => {
+                    if !self.swatches[number].patterns.is_empty() {
+                        looks.varied.push((number as u32, i as u32));
+                    }
+                    number as u32
                 }
-                Some(number) => varied.push((number, i as u32)),
                 None => {
                     let [x, y, z] = outcomes.point();
                     let surface = Surface::of(surfaces, part, DVec3::new(x[i], y[i], z[i]));
-                    looks.numbers[i] = surface.map_or(NONE, |surface| looks.add(surface));
+                    surface.map_or(NONE, |surface| looks.add(self, surface))
                 }
-            }
+            };
+            looks.numbers.push(number);
         }
+        looks.write_terms(self);
+        let mut varied = mem::take(&mut looks.varied);
         varied.sort_unstable();
         for same in varied.chunk_by(|(a, _), (b, _)| a == b) {
-            let swatch = &self.swatches[same[0].0];
             for some in same.chunks(WIDTH) {
-                looks.paint(swatch, outcomes, some);
+                looks.paint(self, same[0].0 as usize, outcomes, some);
             }
         }
-        looks
+        looks.varied = varied;
     }
 }
 
-impl Looks<'_> {
-    /// The surface that ray number `i` hit.
-    pub fn at(&self, i: usize) -> Option<&Surface> {
+impl Looks {
+    /// The surface that ray number `i` hit. Its colour is that of [`Looks::terms`].
+    pub fn at<'a>(&'a self, palette: &'a Palette, i: usize) -> Option<&'a Surface> {
         let number = self.numbers[i] as usize;
-        let plain = self.palette.surfaces.get(number);
-        plain.or_else(|| {
-            self.own
-                .get(number.wrapping_sub(self.palette.surfaces.len()))
-        })
+        match palette.swatches.get(number) {
+            Some(swatch) => Some(&swatch.surface),
+            None => self.own.get(number.wrapping_sub(palette.swatches.len())),
+        }
     }
 
-    fn add(&mut self, surface: Surface) -> u32 {
+    /// What lighting reads of the surfaces of all rays.
+    pub fn terms(&self) -> &Columns<LIGHTING> {
+        &self.terms
+    }
+
+    /// Whether any of these rays hit a surface that answers light, so that shadow rays are of use.
+    pub fn is_any_lit(&self, rays: Range<usize>) -> bool {
+        let terms = Lighting::of(self.terms.columns().map(|column| &column[rays.clone()]));
+        let [r, g, b] = terms.color;
+        let mut lit = 0;
+        for i in 0..rays.len() {
+            let is_colored = (r[i] != 0.0) | (g[i] != 0.0) | (b[i] != 0.0);
+            let is_matt = (terms.diffuse[i] != 0.0) & is_colored;
+            lit += u64::from((terms.specular[i] != 0.0) | is_matt);
+        }
+        lit > 0
+    }
+
+    /// Writes the colours of the sky behind the rays that hit nothing.
+    pub fn write_sky(&mut self, sky: &Sky, rays: &Rays, level: Level) {
+        if self.numbers.contains(&NONE) {
+            let looks = self;
+            run_at(level, Backdrop { looks, sky, rays });
+        }
+    }
+
+    fn add(&mut self, palette: &Palette, surface: Surface) -> u32 {
         self.own.push(surface);
-        (self.palette.surfaces.len() + self.own.len() - 1) as u32
+        (palette.swatches.len() + self.own.len() - 1) as u32
+    }
+
+    /// Writes what lighting reads of each surface.
+    fn write_terms(&mut self, palette: &Palette) {
+        let mut terms = mem::take(&mut self.terms);
+        terms.resize(self.numbers.len());
+        let mut columns = terms.columns_mut();
+        let mut first = 0;
+        for same in self.numbers.chunk_by(|a, b| a == b) {
+            let row = self.at(palette, first).map_or(BACKDROP, row);
+            for (column, number) in columns.iter_mut().zip(row) {
+                column[first..first + same.len()].fill(number);
+            }
+            first += same.len();
+        }
+        self.terms = terms;
     }
 
     /// Gives these rays, at most [`WIDTH`], their surfaces, all of one material with patterns.
-    fn paint(&mut self, swatch: &Swatch, outcomes: &Outcomes, rays: &[(usize, u32)]) {
+    fn paint(
+        &mut self,
+        palette: &Palette,
+        number: usize,
+        outcomes: &Outcomes,
+        rays: &[(u32, u32)],
+    ) {
+        let swatch = &palette.swatches[number];
         let axis = |axis: usize| {
             let column = outcomes.point()[axis];
             // Lanes without a ray repeat the first.
@@ -137,6 +259,16 @@ impl Looks<'_> {
             }
             value
         };
+        if swatch.is_tinted {
+            let color = value(&swatch.patterns[0]);
+            let columns = self.terms.columns_mut();
+            for (column, channel) in columns.into_iter().zip(color) {
+                for (lane, (_, ray)) in rays.iter().enumerate() {
+                    column[*ray as usize] = channel.0[lane];
+                }
+            }
+            return;
+        }
         let values: Vec<[F64x32; 3]> = swatch.patterns.iter().map(value).collect();
         for (lane, (_, ray)) in rays.iter().enumerate() {
             let mut known = Known {
@@ -144,7 +276,38 @@ impl Looks<'_> {
                 lane,
             };
             let surface = Surface::of_terms(&swatch.material, &mut known);
-            self.numbers[*ray as usize] = self.add(surface);
+            let row = row(&surface);
+            for (column, number) in self.terms.columns_mut().into_iter().zip(row) {
+                column[*ray as usize] = number;
+            }
+            self.numbers[*ray as usize] = self.add(palette, surface);
+        }
+    }
+}
+
+/// Writes the sky behind the rays of a wave that hit nothing.
+struct Backdrop<'a> {
+    looks: &'a mut Looks,
+    sky: &'a Sky,
+    rays: &'a Rays,
+}
+
+impl Task for Backdrop<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let numbers = &self.looks.numbers[..];
+        let n = numbers.len();
+        let [x, y, z] = self.rays.direction().map(|column| &column[..n]);
+        let [r, g, b, ..] = self.looks.terms.columns_mut();
+        let (r, g, b) = (&mut r[..n], &mut g[..n], &mut b[..n]);
+        for i in 0..n {
+            let light = sky::radiance(self.sky, DVec3::new(x[i], y[i], z[i]));
+            let is_sky = numbers[i] == NONE;
+            r[i] = if is_sky { light.x } else { r[i] };
+            g[i] = if is_sky { light.y } else { g[i] };
+            b[i] = if is_sky { light.z } else { b[i] };
         }
     }
 }
@@ -211,19 +374,15 @@ mod tests {
     use super::*;
     use crate::num::samples::random;
     use crate::scene::GraphBuilder;
-    use crate::trace::{Occlusion, Outcome, Paint, Rays, Visibility};
+    use crate::trace::{Occlusions, Outcome, Paint, Visibility};
 
     /// Materials alone: part number `i` has material number `i`.
     struct Samples(Vec<Arc<Material>>);
 
     impl Surfaces for Samples {
-        fn nearest(&self, rays: &Rays, _: Visibility) -> Outcomes {
-            Outcomes::nothing(rays.len())
-        }
+        fn nearest(&self, _: &Rays, _: Visibility, _: &mut Outcomes) {}
 
-        fn occluded(&self, _: &Rays) -> Vec<Occlusion> {
-            Vec::new()
-        }
+        fn occluded(&self, _: &Rays, _: &mut Occlusions) {}
 
         fn paints(&self, _: u32, _: DVec3) -> Vec<Paint<'_>> {
             Vec::new()
@@ -264,6 +423,10 @@ mod tests {
                 ..Material::default()
             }),
             Arc::new(Material {
+                color: Term::Pattern(pattern(5, 3)),
+                ..Material::default()
+            }),
+            Arc::new(Material {
                 color: Term::Pattern(pattern(9, 1)),
                 shininess: number(31),
                 absorb: Term::Pattern(pattern(32, 3)),
@@ -276,18 +439,27 @@ mod tests {
             } else {
                 Verdict::Hit
             },
-            part: (i % 3) as u32,
+            part: (i % 4) as u32,
             point: DVec3::from_array([0, 1, 2].map(|k| 4.0 * random(100 + 3 * i + k) - 2.0)),
             ..Outcome::NOTHING
         };
         let outcomes: Outcomes = (0..200).map(outcome).collect();
         let palette = Palette::new(&materials.0);
-        let looks = palette.looks(&materials, &outcomes);
-        for (i, outcome) in outcomes.iter().enumerate() {
-            let material = &materials.0[outcome.part as usize];
-            let expected = Surface::new(material, outcome.point.to_array());
-            let is_hit = outcome.verdict == Verdict::Hit;
-            assert_eq!(looks.at(i).copied(), is_hit.then_some(expected));
+        let mut looks = Looks::default();
+        // What was there before is of no concern.
+        for outcomes in [Outcomes::nothing(7), outcomes.clone(), outcomes] {
+            palette.look(&materials, &outcomes, &mut looks);
+            for (i, outcome) in outcomes.iter().enumerate() {
+                let material = &materials.0[outcome.part as usize];
+                let expected = Surface::new(material, outcome.point.to_array());
+                let is_hit = outcome.verdict == Verdict::Hit;
+                let terms = if is_hit { row(&expected) } else { BACKDROP };
+                assert_eq!(looks.terms().row(i), terms);
+                let color = DVec3::from_slice(&terms[..3]);
+                let found = looks.at(&palette, i);
+                let found = found.map(|surface| Surface { color, ..*surface });
+                assert_eq!(found, is_hit.then_some(expected));
+            }
         }
     }
 }

@@ -3,14 +3,7 @@
 //! `I = Ka + sum_i [Kd (L_i.N) + Ks (R_i.V)^n] I_i` with `Ka = ambient color`, `Kd = diffuse color`, `Ks = specular`.
 //! Sources: Lambert 1760; Phong 1975; Blinn 1977.
 
-use super::Surface;
-use crate::num::Number;
 use glam::DVec3;
-
-/// What the surface shows without any light.
-pub fn ambient(surface: &Surface) -> DVec3 {
-    surface.color * surface.ambient
-}
 
 /// The cosines that decide what a surface shows of a light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,60 +34,35 @@ impl Cosines {
     }
 }
 
-/// The share of a light's radiance that the surface sends to the viewer: `Kd (L.N) + Ks (R.V)^n`. Zero where the light is
-/// behind the surface.
-pub fn reflectance(surface: &Surface, cosines: &Cosines) -> DVec3 {
-    if cosines.light.is_nan() || cosines.light <= 0.0 {
-        return DVec3::ZERO;
-    }
-    let diffuse = surface.color * (surface.diffuse * cosines.light);
-    diffuse + DVec3::splat(surface.specular * highlight(surface, cosines))
-}
-
-/// The highlight of a light in front of the surface, in [0, 1].
-fn highlight(surface: &Surface, cosines: &Cosines) -> f64 {
-    if surface.specular == 0.0 {
-        return 0.0;
-    }
-    let phong = || lobe(cosines.mirror, surface.shininess);
-    let blinn = || lobe(cosines.halfway, surface.shininess);
-    match surface.blinn {
-        0.0 => phong(),
-        1.0 => blinn(),
-        share => phong() * (1.0 - share) + blinn() * share,
-    }
-}
-
-/// Highlights below `exp` of this are 0: 2^-53, what rounding would take from a full one anyway.
-const FAINTEST_LOG: f64 = -36.7;
-
-/// `cosine^exponent` in front, 0 behind; also where the exponent is 0, for which a plain power would give 0^0 = 1.
-fn lobe(cosine: f64, exponent: f64) -> f64 {
-    // ln c <= c - 1 bounds the power from above: most points need none, a tenth of the time of three spheres.
-    if cosine > 0.0 && exponent * (cosine - 1.0) > FAINTEST_LOG {
-        power(cosine.min(1.0), exponent)
-    } else {
-        0.0
-    }
-}
-
-/// `x^exponent`; for whole exponents, as most are, by a few multiplications.
-fn power(x: f64, exponent: f64) -> f64 {
-    if exponent <= 1024.0 && exponent.fract() == 0.0 {
-        Number::powi(x, exponent as i32)
-    } else {
-        libm::pow(x, exponent)
-    }
+/// The share of a light's radiance that the surface sends to the viewer in a channel of this `color`:
+/// `Kd (L.N) + Ks (R.V)^n`, where `shine` is the second term. Zero where the light is behind the surface.
+#[inline(always)]
+pub fn reflectance(color: f64, diffuse: f64, light: f64, shine: f64) -> f64 {
+    let seen = color * (diffuse * light) + shine;
+    if light > 0.0 { seen } else { 0.0 }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::Surface;
+    use super::super::highlight::{GROUP, highlights};
     use super::*;
     use crate::scene::{Material, Model, Term};
     use std::sync::Arc;
 
     fn reflectance(surface: &Surface, normal: DVec3, toward: DVec3, view: DVec3) -> DVec3 {
-        super::reflectance(surface, &Cosines::new(normal, toward, view))
+        let cosines = Cosines::new(normal, toward, view);
+        let [mirror, halfway, shininess, blinn] = [
+            cosines.mirror,
+            cosines.halfway,
+            surface.shininess,
+            surface.blinn,
+        ]
+        .map(|number| [number; GROUP]);
+        let shine = surface.specular * highlights([&mirror, &halfway], &shininess, &blinn)[0];
+        surface
+            .color
+            .map(|color| super::reflectance(color, surface.diffuse, cosines.light, shine))
     }
 
     fn surface(diffuse: f64, specular: f64, shininess: f64, model: Model) -> Surface {
@@ -176,11 +144,5 @@ mod tests {
         let shiny = surface(0.8, 0.5, 32.0, Model::Blinn);
         let seen = reflectance(&shiny, DVec3::Y, at(60.0), -at(60.0));
         assert!(seen.is_finite());
-    }
-
-    #[test]
-    fn ambient_light_needs_no_light() {
-        let matt = surface(0.8, 0.0, 1.0, Model::Phong);
-        assert_eq!(ambient(&matt), matt.color * 0.1);
     }
 }

@@ -5,31 +5,24 @@
 //! share that its material passes, and between them what the medium does not absorb.
 
 use super::attenuation::absorbed;
+use super::census::sum;
+use super::gains::Gains;
 use super::medium::{Media, Medium};
-use super::palette::Palette;
+use super::palette::{Looks, Palette};
 use super::{Census, Features, Surfaces, offset};
-use crate::trace::{Outcome, Ray, Rays, Verdict, Visibility};
+use crate::trace::{Outcome, Outcomes, Ray, Rays, Verdict, Visibility};
 use glam::DVec3;
 
 /// How many boundaries a shadow ray may cross before it is given up as unknown, and taken as blocked.
 const MAX_CROSSINGS: usize = 256;
 
-/// Rays from surfaces towards lights; each ends before its light.
-#[derive(Clone, Debug, Default)]
-pub struct ShadowRays {
-    /// The rays.
-    pub rays: Rays,
-    /// The media around their starts, one for each where shadows are tinted, else none.
-    pub media: Vec<Media>,
-}
-
 /// What reaches the start of a shadow ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Passage {
+struct Passage {
     /// The share of the light, in each channel.
-    pub share: DVec3,
+    share: DVec3,
     /// Whether the tracer could not tell.
-    pub unknown: bool,
+    unknown: bool,
 }
 
 impl Passage {
@@ -39,43 +32,65 @@ impl Passage {
     };
 }
 
-/// What reaches the start of each of `shadows`. Where the tracer could not tell whether something is in the way, nothing
-/// is.
-pub fn passages<S: Surfaces + ?Sized>(
-    (surfaces, palette): (&S, &Palette),
+/// Takes from `gains` what does not reach their hits; gives the rays of which the tracer could not tell. Where it could not
+/// tell whether something is in the way, nothing is.
+pub fn settle<S: Surfaces + ?Sized>(
+    seen: (&S, &Palette),
     features: &Features,
-    shadows: &ShadowRays,
+    gains: &mut Gains,
     census: &mut Census,
-) -> Vec<Passage> {
-    let mut passages = vec![Passage::CLEAR; shadows.rays.len()];
+) -> Vec<u32> {
     if features.tinted_shadows {
-        walk((surfaces, palette), shadows, &mut passages, census);
+        walk_all(seen, gains, census)
     } else if features.opaque_shadows {
-        stop(surfaces, shadows, &mut passages, census);
+        stop(seen.0, gains, census)
+    } else {
+        Vec::new()
     }
-    passages
 }
 
 /// Blocks the rays that meet an opaque surface.
-fn stop<S: Surfaces + ?Sized>(
-    surfaces: &S,
-    shadows: &ShadowRays,
-    passages: &mut [Passage],
-    census: &mut Census,
-) {
-    census.shadow += shadows.rays.len() as u64;
-    let occlusions = census.timed(|t| &mut t.shadow, || surfaces.occluded(&shadows.rays));
-    for (passage, occlusion) in passages.iter_mut().zip(occlusions) {
-        census.evaluations += u64::from(occlusion.evaluations);
-        match occlusion.verdict {
-            Verdict::Hit => passage.share = DVec3::ZERO,
-            Verdict::Miss => {}
-            Verdict::Unknown => {
-                passage.unknown = true;
-                census.unknown_secondary += 1;
-            }
+fn stop<S: Surfaces + ?Sized>(surfaces: &S, gains: &mut Gains, census: &mut Census) -> Vec<u32> {
+    census.shadow += gains.rays.len() as u64;
+    let Gains {
+        rays,
+        radiance,
+        occlusions,
+        ..
+    } = gains;
+    census.timed(|t| &mut t.shadow, || surfaces.occluded(rays, occlusions));
+    census.evaluations += sum(&occlusions.evaluations);
+    for channel in radiance.columns_mut() {
+        for (gained, verdict) in channel.iter_mut().zip(&occlusions.verdict) {
+            *gained = if *verdict == Verdict::Hit {
+                0.0
+            } else {
+                *gained
+            };
         }
     }
+    let verdicts = (0..).zip(&occlusions.verdict);
+    let unknown = verdicts.filter(|(_, verdict)| **verdict == Verdict::Unknown);
+    let unknown: Vec<u32> = unknown.map(|(i, _)| i).collect();
+    census.unknown_secondary += unknown.len() as u64;
+    unknown
+}
+
+/// Weakens what comes through tinted surfaces.
+fn walk_all<S: Surfaces + ?Sized>(
+    seen: (&S, &Palette),
+    gains: &mut Gains,
+    census: &mut Census,
+) -> Vec<u32> {
+    let mut passages = vec![Passage::CLEAR; gains.rays.len()];
+    walk(seen, gains, &mut passages, census);
+    for (k, channel) in gains.radiance.columns_mut().into_iter().enumerate() {
+        for (gained, passage) in channel.iter_mut().zip(&passages) {
+            *gained *= passage.share[k];
+        }
+    }
+    let unknown = (0..).zip(&passages).filter(|(_, passage)| passage.unknown);
+    unknown.map(|(i, _)| i).collect()
 }
 
 /// Shadow rays on their way.
@@ -90,14 +105,14 @@ struct Walkers {
 /// Follows the rays through tinted surfaces, all of them one boundary at a time.
 fn walk<S: Surfaces + ?Sized>(
     seen: (&S, &Palette),
-    shadows: &ShadowRays,
+    gains: &Gains,
     passages: &mut [Passage],
     census: &mut Census,
 ) {
     let mut walkers = Walkers {
-        rays: shadows.rays.clone(),
-        media: shadows.media.clone(),
-        indices: (0..shadows.rays.len()).collect(),
+        rays: gains.rays.clone(),
+        media: gains.media.clone(),
+        indices: (0..gains.rays.len()).collect(),
     };
     for _ in 0..MAX_CROSSINGS {
         if walkers.rays.is_empty() {
@@ -122,11 +137,13 @@ fn step<S: Surfaces + ?Sized>(
     census: &mut Census,
 ) -> Walkers {
     census.shadow += walkers.rays.len() as u64;
-    let outcomes = census.timed(
+    let mut outcomes = Outcomes::default();
+    census.timed(
         |t| &mut t.shadow,
-        || surfaces.nearest(&walkers.rays, Visibility::Casting),
+        || surfaces.nearest(&walkers.rays, Visibility::Casting, &mut outcomes),
     );
-    let looks = palette.looks(surfaces, &outcomes);
+    let mut looks = Looks::default();
+    palette.look(surfaces, &outcomes, &mut looks);
     let mut further = Walkers::default();
     for (i, hit) in outcomes.iter().enumerate() {
         let (ray, media, index) = (&walkers.rays.at(i), &walkers.media[i], walkers.indices[i]);
@@ -142,7 +159,7 @@ fn step<S: Surfaces + ?Sized>(
         if !is_hit {
             continue;
         }
-        let Some(surface) = looks.at(i) else {
+        let Some(surface) = looks.at(palette, i) else {
             continue;
         };
         passage.share *= surface.passes;

@@ -5,6 +5,7 @@ use glam::DVec3;
 
 /// The colour of the sky along a unit `direction`: the horizon's at and below it, then with the height `y` smoothly
 /// (`3 y^2 - 2 y^3`, without a kink at the horizon) to the zenith's.
+#[inline(always)]
 pub fn radiance(sky: &Sky, direction: DVec3) -> DVec3 {
     let y = direction.y.clamp(0.0, 1.0);
     sky.horizon + (sky.zenith - sky.horizon) * (y * y * (3.0 - 2.0 * y))

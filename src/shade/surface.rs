@@ -151,11 +151,6 @@ impl Surface {
     pub fn sends_on(&self) -> bool {
         self.reflect != 0.0 || self.refract != 0.0
     }
-
-    /// Whether it answers light, so that shadow rays are of use.
-    pub fn is_lit(&self) -> bool {
-        self.specular != 0.0 || (self.diffuse != 0.0 && self.color != DVec3::ZERO)
-    }
 }
 
 #[cfg(test)]

@@ -1,18 +1,19 @@
 //! What shading asks of the world.
 
 use crate::scene::Material;
-use crate::trace::{Occlusion, Outcomes, Paint, Rays, Visibility, World};
+use crate::trace::{Occlusions, Outcomes, Paint, Rays, Visibility, World};
 use glam::DVec3;
 use std::sync::Arc;
 
 /// Surfaces that rays can find. The [`World`] is one; tests shade closed forms instead, so that the laws of light are
 /// checked apart from those of marching.
 pub trait Surfaces: Sync {
-    /// The first surface on each ray.
-    fn nearest(&self, rays: &Rays, visibility: Visibility) -> Outcomes;
+    /// Finds the first surface on each ray; what was in `found` before is forgotten.
+    fn nearest(&self, rays: &Rays, visibility: Visibility, found: &mut Outcomes);
 
-    /// Whether any opaque surface lies on each ray; what casts a tinted shadow or none is passed over.
-    fn occluded(&self, rays: &Rays) -> Vec<Occlusion>;
+    /// Finds whether any opaque surface lies on each ray; what casts a tinted shadow or none is passed over. What was in
+    /// `found` before is forgotten.
+    fn occluded(&self, rays: &Rays, found: &mut Occlusions);
 
     /// The materials at a point of the surface of `part`, with their shares.
     fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>>;
@@ -28,12 +29,12 @@ pub trait Surfaces: Sync {
 }
 
 impl Surfaces for World {
-    fn nearest(&self, rays: &Rays, visibility: Visibility) -> Outcomes {
-        self.trace(rays, visibility)
+    fn nearest(&self, rays: &Rays, visibility: Visibility, found: &mut Outcomes) {
+        self.trace_into(rays, visibility, found);
     }
 
-    fn occluded(&self, rays: &Rays) -> Vec<Occlusion> {
-        self.occlusions(rays)
+    fn occluded(&self, rays: &Rays, found: &mut Occlusions) {
+        self.occlusions_into(rays, found);
     }
 
     fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>> {

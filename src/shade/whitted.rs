@@ -11,18 +11,22 @@
 //! batched. Source: Whitted 1980.
 
 use super::attenuation::{absorbed, sight, through_fog};
+use super::census::sum;
+use super::gains::{Gain, Gains};
 use super::light::Lamp;
 use super::lit::{CHUNK, Face, Lit, Shine};
 use super::meeting::{Meeting, Onward};
-use super::palette::{Looks, Palette};
-use super::shadow::{ShadowRays, passages};
-use super::wave::{Path, Wave, Waves};
-use super::{Census, Features, Surface, Surfaces, phong, sky};
-use crate::field::{Level, run_at};
+use super::palette::{LIGHTING, Lighting, Looks, Palette};
+use super::shadow::settle;
+use super::wave::{Path, Paths, Wave, Waves};
+use super::{Census, Features, Surfaces};
+use crate::field::{Level, Task, run_at};
+use crate::num::Columns;
 use crate::scene::{Fog, Scene, Sky};
 use crate::trace::{Outcomes, Rays, Verdict, Visibility};
 use glam::DVec3;
 use std::cell::Cell;
+use std::mem;
 
 /// Rays whose weight is below this in all channels are left out: half a step of an 8-bit picture.
 pub const FAINTEST: f64 = 1.0 / 512.0;
@@ -43,49 +47,101 @@ pub struct Whitted<'a, S: Surfaces + ?Sized> {
 /// What the eye receives along its rays.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Received {
-    /// The radiance along each ray, linear RGB.
-    pub radiance: Vec<DVec3>,
+    /// The radiance along each ray, linear RGB, by channel.
+    pub radiance: Columns<3>,
     /// Whether the tracer could not tell what this ray, or one that it led to, hits.
     pub unknown: Vec<bool>,
 }
 
-/// What is gained if shadow rays pass.
-struct Gains {
-    rays: ShadowRays,
-    samples: Vec<usize>,
-    radiance: Vec<DVec3>,
+impl Received {
+    /// Nothing yet, along that many rays.
+    fn nothing(rays: usize) -> Self {
+        Self {
+            radiance: Columns::zeros(rays),
+            unknown: vec![false; rays],
+        }
+    }
+
+    /// Adds light to these samples, one after the other.
+    fn add(&mut self, samples: &[u32], light: [&[f64]; 3]) {
+        let first = samples.first().map_or(0, |sample| *sample as usize);
+        let is_run = samples.iter().zip(first as u32..).all(|(a, b)| *a == b);
+        for (channel, light) in self.radiance.columns_mut().into_iter().zip(light) {
+            if is_run {
+                let channel = &mut channel[first..][..samples.len()];
+                channel.iter_mut().zip(light).for_each(|(sum, x)| *sum += x);
+            } else {
+                for (sample, x) in samples.iter().zip(light) {
+                    channel[*sample as usize] += x;
+                }
+            }
+        }
+    }
+
+    /// Marks the samples of the rays without an answer.
+    fn mark(&mut self, samples: &[u32], verdicts: &[Verdict]) {
+        if verdicts.contains(&Verdict::Unknown) {
+            for (sample, verdict) in samples.iter().zip(verdicts) {
+                self.unknown[*sample as usize] |= *verdict == Verdict::Unknown;
+            }
+        }
+    }
+}
+
+/// Memory that is used again and again.
+struct Memory {
+    lit: Box<Lit>,
+    looks: Looks,
+    /// What a wave shows without any lamp.
+    glow: Columns<3>,
+    /// What it gains from each lamp.
+    gains: Vec<Gains>,
+    /// What camera rays carry.
+    paths: Paths,
+    /// What other rays meet.
+    outcomes: Outcomes,
 }
 
 /// Where light is collected.
 struct Studio<'a> {
     light: &'a mut Received,
-    lit: &'a mut Lit,
+    memory: &'a mut Memory,
     census: &'a mut Census,
 }
 
 /// Rays of one depth with what they carry and met.
+#[derive(Clone, Copy)]
 struct Meetings<'a> {
     rays: &'a Rays,
-    paths: &'a [Path],
+    paths: &'a Paths,
     outcomes: &'a Outcomes,
-    looks: &'a Looks<'a>,
 }
 
 thread_local! {
-    /// Memory that is used again and again.
-    static LIT: Cell<Option<Box<Lit>>> = const { Cell::new(None) };
+    static MEMORY: Cell<Option<Memory>> = const { Cell::new(None) };
 }
 
-impl Gains {
-    /// None yet, with room for as many.
-    fn up_to(count: usize) -> Self {
-        Self {
-            rays: ShadowRays {
-                rays: Rays::with_capacity(count),
-                media: Vec::new(),
-            },
-            samples: Vec::with_capacity(count),
-            radiance: Vec::with_capacity(count),
+/// Finds what the rays of a wave show without any lamp: ambient light, or the sky.
+struct Glow<'a> {
+    terms: &'a Columns<LIGHTING>,
+    weight: &'a Columns<3>,
+    glow: &'a mut Columns<3>,
+}
+
+impl Task for Glow<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let n = self.weight.len();
+        let Lighting { color, ambient, .. } = Lighting::of(self.terms.columns());
+        let ambient = &ambient[..n];
+        for (k, glow) in self.glow.columns_mut().into_iter().enumerate() {
+            let (glow, color, weight) =
+                (&mut glow[..n], &color[k][..n], &self.weight.column(k)[..n]);
+            for i in 0..n {
+                glow[i] = weight[i] * (color[i] * ambient[i]);
+            }
         }
     }
 }
@@ -111,67 +167,85 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         self.features
     }
 
-    /// The first surface on each ray, as far as one sees through the fog.
-    fn nearest(&self, rays: &Rays) -> Outcomes {
+    /// Finds the first surface on each ray, as far as one sees through the fog.
+    fn nearest(&self, rays: &Rays, found: &mut Outcomes) {
         let Some(fog) = &self.fog else {
-            return self.surfaces.nearest(rays, Visibility::All);
+            return self.surfaces.nearest(rays, Visibility::All, found);
         };
         let mut rays = rays.clone();
         let far = sight(fog);
         let ends = rays.t_max_mut();
         ends.iter_mut().for_each(|end| *end = end.min(far));
-        self.surfaces.nearest(&rays, Visibility::All)
+        self.surfaces.nearest(&rays, Visibility::All, found);
     }
 
     /// What the camera rays hit.
     pub fn first_hits(&self, rays: &Rays, census: &mut Census) -> Outcomes {
-        let outcomes = census.timed(|t| &mut t.primary, || self.nearest(rays));
-        census.primary += rays.len() as u64;
-        census.evaluations += sum(&outcomes.evaluations);
-        for verdict in &outcomes.verdict {
-            match verdict {
-                Verdict::Hit => census.hits += 1,
-                Verdict::Miss => census.misses += 1,
-                Verdict::Unknown => census.unknown += 1,
-            }
-        }
+        let mut outcomes = Outcomes::default();
+        self.meet_first(rays, census, &mut outcomes);
         outcomes
     }
 
-    /// The colours of the materials that the camera rays hit, without any light, and of the sky.
-    pub fn flat_colors(&self, rays: &Rays, outcomes: &Outcomes) -> Vec<DVec3> {
-        let looks = self.palette.looks(self.surfaces, outcomes);
-        let color = |i: usize| match looks.at(i) {
-            Some(surface) => surface.color,
-            None => self.sky_along(rays, i),
-        };
-        (0..rays.len()).map(color).collect()
+    /// As [`Whitted::first_hits`]; what was in `outcomes` before is forgotten.
+    pub fn meet_first(&self, rays: &Rays, census: &mut Census, outcomes: &mut Outcomes) {
+        census.timed(|t| &mut t.primary, || self.nearest(rays, outcomes));
+        census.primary += rays.len() as u64;
+        census.evaluations += sum(&outcomes.evaluations);
+        census.hits += count(&outcomes.verdict, Verdict::Hit);
+        census.misses += count(&outcomes.verdict, Verdict::Miss);
+        census.unknown += count(&outcomes.verdict, Verdict::Unknown);
+    }
+
+    /// The colours of the materials that the camera rays hit, without any light, and of the sky, by channel.
+    pub fn flat_colors(&self, rays: &Rays, outcomes: &Outcomes) -> Columns<3> {
+        let mut looks = Looks::default();
+        self.look(rays, outcomes, &mut looks);
+        let mut colors = Columns::default();
+        colors.append(Lighting::of(looks.terms().columns()).color);
+        colors
+    }
+
+    /// Finds what the rays of a wave see.
+    fn look(&self, rays: &Rays, outcomes: &Outcomes, looks: &mut Looks) {
+        self.palette.look(self.surfaces, outcomes, looks);
+        looks.write_sky(&self.sky, rays, self.level);
     }
 
     /// The light along camera rays that hit `outcomes`.
     pub fn light(&self, rays: &Rays, outcomes: &Outcomes, census: &mut Census) -> Received {
-        let mut light = Received {
-            radiance: vec![DVec3::ZERO; rays.len()],
-            unknown: vec![false; rays.len()],
-        };
-        let mut lit = LIT.with(Cell::take).unwrap_or_else(Lit::new);
+        let mut light = Received::nothing(rays.len());
+        let mut memory = MEMORY.with(Cell::take).unwrap_or_else(|| Memory {
+            lit: Lit::new(),
+            looks: Looks::default(),
+            glow: Columns::default(),
+            gains: Vec::new(),
+            paths: Paths::default(),
+            outcomes: Outcomes::default(),
+        });
+        let (mut first, mut found) = (
+            mem::take(&mut memory.paths),
+            mem::take(&mut memory.outcomes),
+        );
+        first.start(rays.len());
         let mut studio = Studio {
             light: &mut light,
-            lit: &mut lit,
+            memory: &mut memory,
             census,
         };
-        let paths = Path::from_camera(rays.len());
-        let mut waiting = self.shade(0, rays, paths, outcomes, &mut studio);
-        while let Some(wave) = waiting.pop() {
+        let mut waiting = self.shade(0, rays, &mut first, outcomes, &mut studio);
+        while let Some(mut wave) = waiting.pop() {
             let census = &mut *studio.census;
-            let outcomes = census.timed(|t| &mut t.secondary, || self.nearest(&wave.rays));
-            census.evaluations += sum(&outcomes.evaluations);
-            let is_unknown = |verdict: &&Verdict| **verdict == Verdict::Unknown;
-            census.unknown_secondary += outcomes.verdict.iter().filter(is_unknown).count() as u64;
-            let Wave { depth, rays, paths } = wave;
-            waiting.extend(self.shade(depth, &rays, paths, &outcomes, &mut studio));
+            census.timed(
+                |t| &mut t.secondary,
+                || self.nearest(&wave.rays, &mut found),
+            );
+            census.evaluations += sum(&found.evaluations);
+            census.unknown_secondary += count(&found.verdict, Verdict::Unknown);
+            let Wave { depth, rays, paths } = &mut wave;
+            waiting.extend(self.shade(*depth, rays, paths, &found, &mut studio));
         }
-        LIT.with(|cell| cell.set(Some(lit)));
+        (memory.paths, memory.outcomes) = (first, found);
+        MEMORY.with(|cell| cell.set(Some(memory)));
         light
     }
 
@@ -180,42 +254,45 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         &self,
         depth: u32,
         rays: &Rays,
-        mut paths: Vec<Path>,
+        paths: &mut Paths,
         outcomes: &Outcomes,
         studio: &mut Studio,
     ) -> Vec<Wave> {
-        let looks = self.palette.looks(self.surfaces, outcomes);
-        let light = &mut *studio.light;
-        for (i, path) in paths.iter_mut().enumerate() {
-            let sample = path.sample;
-            light.unknown[sample] |= outcomes.verdict[i] == Verdict::Unknown;
-            let surface = looks.at(i);
-            let distance = surface.map_or(f64::INFINITY, |_| outcomes.t()[i]);
-            light.radiance[sample] += self.travel(path, distance);
-            light.radiance[sample] += match surface {
-                Some(surface) => path.weight * phong::ambient(surface),
-                // Nothing of the sky may be left on the infinite way.
-                None if path.weight == DVec3::ZERO => DVec3::ZERO,
-                None => path.weight * self.sky_along(rays, i),
-            };
+        self.look(rays, outcomes, &mut studio.memory.looks);
+        studio.light.mark(&paths.sample, &outcomes.verdict);
+        if self.features.absorbs || self.fog.is_some() {
+            self.travel(paths, outcomes, studio);
         }
+        let Memory { looks, glow, .. } = &mut *studio.memory;
+        glow.resize(rays.len());
+        let (terms, weight) = (looks.terms(), &paths.weight);
+        run_at(
+            self.level,
+            Glow {
+                terms,
+                weight,
+                glow,
+            },
+        );
+        studio.light.add(&paths.sample, glow.columns());
         let wave = Meetings {
             rays,
-            paths: &paths,
+            paths,
             outcomes,
-            looks: &looks,
         };
         if self.features.lit {
-            self.ask_lamps(&wave, studio);
+            self.ask_lamps(wave, studio);
+        }
+        if !self.features.reflects {
+            return Vec::new();
         }
         let mut next = [(); 2].map(|()| Waves::new(depth + 1));
-        if self.features.reflects {
-            for (i, path) in paths.iter().enumerate() {
-                if let Some(surface) = looks.at(i).filter(|surface| surface.sends_on()) {
-                    let (ray, outcome) = (rays.at(i), outcomes.at(i));
-                    let hit = Meeting::new(&ray, path, &outcome, surface);
-                    self.send_on(&hit, &mut next, studio.census);
-                }
+        for i in 0..rays.len() {
+            let surface = studio.memory.looks.at(&self.palette, i);
+            if let Some(surface) = surface.filter(|surface| surface.sends_on()) {
+                let (ray, path, outcome) = (rays.at(i), paths.at(i), outcomes.at(i));
+                let hit = Meeting::new(&ray, &path, &outcome, surface);
+                self.send_on(&hit, &mut next, studio.census);
             }
         }
         let [mut waves, refracted] = next.map(|waves| waves.waves);
@@ -223,104 +300,85 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         waves
     }
 
-    /// The sky behind a ray.
-    fn sky_along(&self, rays: &Rays, i: usize) -> DVec3 {
-        let [x, y, z] = rays.direction();
-        sky::radiance(&self.sky, DVec3::new(x[i], y[i], z[i]))
-    }
-
-    /// Weakens a path over `distance`, and gives the light that fog adds to it on the way.
-    fn travel(&self, path: &mut Path, distance: f64) -> DVec3 {
-        if self.features.absorbs {
-            path.weight *= absorbed(path.media.absorb(), distance);
+    /// Weakens paths over the distances that their rays went, and adds the light that fog adds to them on the way.
+    fn travel(&self, paths: &mut Paths, outcomes: &Outcomes, studio: &mut Studio) {
+        let glow = &mut studio.memory.glow;
+        glow.resize(paths.len());
+        for i in 0..paths.len() {
+            let is_hit = studio.memory.looks.at(&self.palette, i).is_some();
+            let distance = if is_hit {
+                outcomes.t()[i]
+            } else {
+                f64::INFINITY
+            };
+            let mut weight = paths.weight(i);
+            if self.features.absorbs {
+                weight *= absorbed(paths.media(i).absorb(), distance);
+            }
+            let (passed, added) = self
+                .fog
+                .map_or((1.0, DVec3::ZERO), |fog| through_fog(&fog, distance));
+            for (k, channel) in glow.columns_mut().into_iter().enumerate() {
+                channel[i] = weight[k] * added[k];
+            }
+            for (k, channel) in paths.weight.columns_mut().into_iter().enumerate() {
+                channel[i] = weight[k] * passed;
+            }
         }
-        let Some(fog) = &self.fog else {
-            return DVec3::ZERO;
-        };
-        let (passed, added) = through_fog(fog, distance);
-        let scattered = path.weight * added;
-        path.weight *= passed;
-        scattered
+        studio.light.add(&paths.sample, glow.columns());
     }
 
     /// Adds what the lamps send to a wave's hits. Lamp by lamp, so that shadow rays that are traced together go to one place.
-    fn ask_lamps(&self, wave: &Meetings, studio: &mut Studio) {
-        let count = wave.rays.len();
-        let mut gains: Vec<Gains> = self.lamps.iter().map(|_| Gains::up_to(count)).collect();
-        let is_lit = |i: usize| wave.looks.at(i).is_some_and(Surface::is_lit);
-        for first in (0..wave.rays.len()).step_by(CHUNK) {
-            let numbers = first..wave.rays.len().min(first + CHUNK);
-            if !numbers.clone().any(is_lit) {
+    fn ask_lamps(&self, wave: Meetings, studio: &mut Studio) {
+        let Memory {
+            lit, looks, gains, ..
+        } = &mut *studio.memory;
+        let Meetings {
+            rays,
+            paths,
+            outcomes,
+        } = wave;
+        gains.resize_with(self.lamps.len(), Gains::default);
+        gains.iter_mut().for_each(Gains::clear);
+        let (terms, weight) = (looks.terms(), &paths.weight);
+        for first in (0..rays.len()).step_by(CHUNK) {
+            let numbers = first..rays.len().min(first + CHUNK);
+            if !looks.is_any_lit(numbers.clone()) {
                 continue;
             }
-            let (rays, outcomes) = (wave.rays, wave.outcomes);
-            let lit = &mut *studio.lit;
-            run_at(
-                self.level,
-                Face {
+            let face = Face {
+                lit,
+                rays,
+                outcomes,
+                numbers,
+            };
+            run_at(self.level, face);
+            for (lamp, gains) in self.lamps.iter().zip(&mut *gains) {
+                let shine = Shine {
                     lit,
+                    lamp,
                     rays,
                     outcomes,
-                    numbers,
-                },
-            );
-            for (lamp, gains) in self.lamps.iter().zip(&mut gains) {
-                run_at(
-                    self.level,
-                    Shine {
-                        lit,
-                        lamp,
-                        rays,
-                        outcomes,
-                    },
-                );
-                self.collect(wave, lamp, lit, gains);
+                };
+                run_at(self.level, shine);
+                let radiance = lamp.radiance();
+                let gain = Gain {
+                    lit,
+                    radiance,
+                    terms,
+                    weight,
+                };
+                run_at(self.level, gain);
+                gains.take(lit, paths, self.features.tinted_shadows);
             }
         }
         for gains in gains {
-            let Gains {
-                rays,
-                samples,
-                radiance,
-            } = gains;
-            let passed = passages(
-                (self.surfaces, &self.palette),
-                &self.features,
-                &rays,
-                studio.census,
-            );
-            for (i, passage) in passed.iter().enumerate() {
-                studio.light.radiance[samples[i]] += radiance[i] * passage.share;
-                studio.light.unknown[samples[i]] |= passage.unknown;
+            let seen = (self.surfaces, &self.palette);
+            for ray in settle(seen, &self.features, gains, studio.census) {
+                studio.light.unknown[gains.samples[ray as usize] as usize] = true;
             }
+            studio.light.add(&gains.samples, gains.radiance.columns());
         }
-    }
-
-    /// Collects what a lamp adds at hits if nothing is in the way, with the rays that find out.
-    fn collect(&self, wave: &Meetings, lamp: &Lamp, lit: &Lit, gains: &mut Gains) {
-        let mut hits: Vec<u32> = Vec::with_capacity(CHUNK);
-        for (i, number) in lit.numbers.clone().enumerate() {
-            let (strength, cosines) = lit.shine(i);
-            if strength == 0.0 || cosines.light.is_nan() || cosines.light <= 0.0 {
-                continue;
-            }
-            let Some(surface) = wave.looks.at(number) else {
-                continue;
-            };
-            let seen = phong::reflectance(surface, &cosines);
-            let radiance = lamp.radiance() * strength;
-            if seen == DVec3::ZERO || radiance == DVec3::ZERO {
-                continue;
-            }
-            let path = &wave.paths[number];
-            hits.push(i as u32);
-            if self.features.tinted_shadows {
-                gains.rays.media.push(path.media.clone());
-            }
-            gains.samples.push(path.sample);
-            gains.radiance.push(path.weight * seen * radiance);
-        }
-        lit.shadow_rays(&hits, &mut gains.rays.rays);
     }
 
     /// Adds the reflected and the refracted ray of a hit to the next waves of each kind, unless they are too deep or too
@@ -335,7 +393,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             census.reflected += 1;
             let ray = hit.leaving(hit.normal, reflected.direction);
             mirrored.push(
-                ray,
+                &ray,
                 Path {
                     weight,
                     ..hit.path.clone()
@@ -353,7 +411,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                 sample: hit.path.sample,
                 media: crossing.beyond,
             };
-            through.push(ray, path);
+            through.push(&ray, path);
         }
     }
 
@@ -381,6 +439,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
     }
 }
 
-fn sum(counts: &[u32]) -> u64 {
-    counts.iter().map(|count| u64::from(*count)).sum()
+/// How many verdicts are that one.
+fn count(verdicts: &[Verdict], verdict: Verdict) -> u64 {
+    verdicts.iter().filter(|other| **other == verdict).count() as u64
 }

@@ -28,6 +28,9 @@ pub trait ClosedForm {
         true
     }
 
+    /// The outward unit normal at a point of the surface; for a triangle that of its front.
+    fn normal(&self, p: DVec3) -> DVec3;
+
     /// The first crossing in front of the ray's origin.
     fn enter(&self, ray: &Ray) -> Option<Crossing> {
         let (t, error) = self.crossing(ray.origin, ray.direction);
@@ -56,11 +59,6 @@ impl Ball {
     /// The box around it.
     pub fn bounds(&self) -> Bounds {
         Bounds::centred([self.radius; 3]).translate(self.centre.to_array())
-    }
-
-    /// The outward unit normal at a point of the surface.
-    pub fn normal(&self, p: DVec3) -> DVec3 {
-        (p - self.centre).normalize()
     }
 
     /// Both crossings of the line in order, and half their distance; not numbers where the line does not meet the sphere.
@@ -92,6 +90,11 @@ impl Ball {
 }
 
 impl ClosedForm for Ball {
+    #[inline(always)]
+    fn normal(&self, p: DVec3) -> DVec3 {
+        (p - self.centre).normalize()
+    }
+
     /// The geometric form with a discriminant that does not cancel: h = r^2 - |q - (q.d) d|^2 with q the vector from
     /// the centre to the origin. Source: Haines et al., Ray Tracing Gems chapter 7.
     #[inline(always)]
@@ -144,16 +147,16 @@ pub(super) fn chord_error(radius: f64, half_chord: f64, place: f64) -> f64 {
 }
 
 /// The outward normal of the face that a point of the surface of a box about the origin lies on; of several, the first.
+#[inline(always)]
 pub(super) fn face(q: DVec3, half: DVec3) -> DVec3 {
-    let outside = (q.abs() - half).to_array();
-    let face = (1..3).fold(0, |best, axis| {
-        if outside[axis] > outside[best] {
-            axis
-        } else {
-            best
-        }
-    });
-    DVec3::AXES[face] * q[face].signum()
+    let outside = q.abs() - half;
+    let is_second = outside.y > outside.x;
+    let larger = if is_second { outside.y } else { outside.x };
+    let is_third = outside.z > larger;
+    let along = if is_second { q.y } else { q.x };
+    let along = if is_third { q.z } else { along };
+    let faces = [!is_second & !is_third, is_second & !is_third, is_third];
+    DVec3::from_array(faces.map(|is| if is { 1.0 } else { 0.0 })) * along.signum()
 }
 
 /// The distances at which a line meets a sphere, by the geometric form of the textbook: the foot of the perpendicular
@@ -196,6 +199,11 @@ impl HalfSpace {
 }
 
 impl ClosedForm for HalfSpace {
+    #[inline(always)]
+    fn normal(&self, _: DVec3) -> DVec3 {
+        self.normal
+    }
+
     /// A parallel ray, and one that starts on the plane, has no crossing.
     #[inline(always)]
     fn crossing(&self, origin: DVec3, direction: DVec3) -> (f64, f64) {
@@ -204,7 +212,7 @@ impl ClosedForm for HalfSpace {
         let noise = 4.0 * U * (origin.abs().dot(self.normal.abs()) + self.offset.abs());
         let t = -height / slope;
         let error = noise / slope.abs() + 4.0 * U * t.abs();
-        let is_ahead = t > 0.0 && height.abs() > noise;
+        let is_ahead = (t > 0.0) & (height.abs() > noise);
         (if is_ahead { t } else { f64::INFINITY }, error)
     }
 }
@@ -223,14 +231,15 @@ impl Block {
     pub fn bounds(&self) -> Bounds {
         Bounds::centred(self.half.to_array()).translate(self.centre.to_array())
     }
-
-    /// The outward normal of the face that a point of the surface lies on; of several, the first.
-    pub fn normal(&self, p: DVec3) -> DVec3 {
-        face(p - self.centre, self.half)
-    }
 }
 
 impl ClosedForm for Block {
+    /// That of the face that the point lies on; of several, the first.
+    #[inline(always)]
+    fn normal(&self, p: DVec3) -> DVec3 {
+        face(p - self.centre, self.half)
+    }
+
     /// A touch of an edge does not count. Source: Kay and Kajiya 1986.
     #[inline(always)]
     fn crossing(&self, origin: DVec3, direction: DVec3) -> (f64, f64) {
@@ -291,6 +300,11 @@ impl Facet {
 }
 
 impl ClosedForm for Facet {
+    #[inline(always)]
+    fn normal(&self, _: DVec3) -> DVec3 {
+        self.normal
+    }
+
     /// Where the ray meets the plane, if that point is on the same side of every edge. The border belongs to the triangle, up
     /// to rounding, so that nothing leaks between neighbours.
     fn crossing(&self, origin: DVec3, direction: DVec3) -> (f64, f64) {

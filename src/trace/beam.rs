@@ -253,7 +253,7 @@ mod tests {
         let numbers: Vec<u32> = (0..rays.len() as u32).collect();
         let mut bundle = Bundle::new();
         let level = Level::best();
-        bundle.fill(&rays.iter().collect(), &numbers, level);
+        bundle.fill(&rays.iter().collect(), &numbers);
         Beam::around(&bundle, level)
     }
 

@@ -6,7 +6,7 @@
 )]
 
 use super::analytic::{ClosedForm, Crossing};
-use super::finding::{Finding, concluded, is_better};
+use super::finding::{Finding, concluded, is_better, occluded};
 use super::{Rays, Verdict};
 use crate::catalogue::Bounds;
 use crate::field::{Level, Task, run_at};
@@ -52,12 +52,18 @@ pub(super) struct Bundle {
     pub gradient: [Column; 3],
     /// The places of their hits; zero where there is none.
     pub point: [Column; 3],
+    /// The parts that were hit; 0 where there is no hit.
+    pub hit: [u32; CAPACITY],
     /// Where rays enter a box.
     pub enter: Column,
     /// Where they leave it; below the entry for those that miss it.
     pub leave: Column,
     /// Whether they meet it.
     meets: [u8; CAPACITY],
+    /// Whether the reciprocals of the directions are there.
+    is_inverted: bool,
+    /// The parts in closed form that rays were content with for a while, each once.
+    pub winners: Vec<u32>,
 }
 
 impl Bundle {
@@ -81,14 +87,17 @@ impl Bundle {
             evaluations: [0; CAPACITY],
             gradient: [column; 3],
             point: [column; 3],
+            hit: [0; CAPACITY],
             enter: column,
             leave: column,
             meets: [0; CAPACITY],
+            is_inverted: false,
+            winners: Vec::new(),
         })
     }
 
     /// Takes the rays with these numbers, from 1 to [`CAPACITY`] of them, in order, and forgets what was there.
-    pub fn fill(&mut self, rays: &Rays, numbers: &[u32], level: Level) {
+    pub fn fill(&mut self, rays: &Rays, numbers: &[u32]) {
         self.count = numbers.len();
         let n = self.lanes();
         let run = run(numbers);
@@ -105,7 +114,8 @@ impl Bundle {
             let first = column[0];
             column[numbers.len()..n].fill(first);
         }
-        run_at(level, Invert(self));
+        self.is_inverted = false;
+        self.winners.clear();
         self.limit[..n].copy_from_slice(&self.t_max[..n]);
         // They take part in nothing.
         self.limit[self.count..n].fill(-1.0);
@@ -138,16 +148,11 @@ impl Bundle {
                 t: self.t[ray],
                 error: self.error[ray],
             },
-            part: self.part(ray),
+            part: self.part[ray] as u32,
             unknown: self.unknown[ray],
             steps: self.steps[ray],
             evaluations: self.evaluations[ray],
         }
-    }
-
-    /// The part of the nearest hit of a ray.
-    pub fn part(&self, ray: usize) -> u32 {
-        self.part[ray] as u32
     }
 
     /// Offers a hit to a ray, as [`Finding::offer`]. With `any`, the ray is content with it.
@@ -166,8 +171,40 @@ impl Bundle {
         is_taken
     }
 
-    /// Collects the rays that meet the box of the last [`Clip`].
-    pub fn clipped(&self, rays: &mut Vec<u32>) {
+    /// Finds where the rays enter and leave a box, in `enter` and `leave`, and which of them meet it.
+    pub fn clip(&mut self, bounds: &Bounds, level: Level) {
+        if !self.is_inverted {
+            run_at(level, Invert(self));
+            self.is_inverted = true;
+        }
+        let bundle = self;
+        run_at(level, Clip { bundle, bounds });
+    }
+
+    /// Draws the conclusions of all rays: verdicts, with distances in `enter`, errors in `leave`, places in `point`, parts in
+    /// `hit`, and normals in `gradient`, zero where they are still to be found; then the ray counts as one that meets something.
+    pub fn conclude(&mut self, level: Level) -> [Verdict; CAPACITY] {
+        run_at(level, Conclude(self))
+    }
+
+    /// The verdicts on rays that are content with any hit.
+    pub fn blocked(&self, level: Level) -> [Verdict; CAPACITY] {
+        run_at(level, Blocked(self))
+    }
+
+    /// Finds the normals of the hits on part `number`, which has this form.
+    pub fn turn<F: ClosedForm>(&mut self, form: &F, number: u32, level: Level) {
+        let bundle = self;
+        let task = Normals {
+            bundle,
+            form,
+            number,
+        };
+        run_at(level, task);
+    }
+
+    /// Collects the rays that meet something, by what was asked last.
+    pub fn meeting(&self, rays: &mut Vec<u32>) {
         rays.clear();
         for (k, meets) in self.meets[..self.lanes()].chunks_exact(8).enumerate() {
             // Most boxes are met by few rays.
@@ -250,9 +287,8 @@ pub(super) fn across(mut lanes: [f64; WIDTH], join: impl Fn(f64, f64) -> f64) ->
     lanes[0]
 }
 
-/// Draws the conclusions of all rays: verdicts, with distances in `enter`, errors in `leave`, places in `point`, and normals
-/// in `gradient`, zero where they are still to be found.
-pub(super) struct Conclude<'a>(pub &'a mut Bundle);
+/// As [`Bundle::conclude`].
+struct Conclude<'a>(&'a mut Bundle);
 
 impl Task for Conclude<'_> {
     type Output = [Verdict; CAPACITY];
@@ -267,27 +303,99 @@ impl Task for Conclude<'_> {
                 error: b.error[i],
             };
             (verdicts[i], b.enter[i], b.leave[i]) = concluded(best, b.unknown[i]);
-            let [x, y, z] = [b.gradient[0][i], b.gradient[1][i], b.gradient[2][i]];
-            let scale = 1.0 / (x * x + y * y + z * z).sqrt();
             let is_hit = verdicts[i] == Verdict::Hit;
-            let is_scale = is_hit & (scale > 0.0) & (scale < f64::INFINITY);
             for axis in 0..3 {
-                let unit = b.gradient[axis][i] * scale;
-                b.gradient[axis][i] = if is_scale { unit } else { 0.0 };
                 let place = b.origin[axis][i] + b.direction[axis][i] * b.enter[i];
                 b.point[axis][i] = if is_hit { place } else { 0.0 };
+            }
+            b.hit[i] = if is_hit { b.part[i] as u32 } else { 0 };
+            b.meets[i] = u8::from(is_hit);
+        }
+        for first in (0..b.lanes()).step_by(WIDTH) {
+            let first = first.min(CAPACITY - WIDTH);
+            // Closed forms leave no gradients.
+            let mut is_any = false;
+            for i in first..first + WIDTH {
+                is_any |= (b.gradient[0][i] != 0.0)
+                    | (b.gradient[1][i] != 0.0)
+                    | (b.gradient[2][i] != 0.0);
+            }
+            if is_any {
+                normalise(b, first);
             }
         }
         verdicts
     }
 }
 
-/// Finds where the rays of a bundle enter and leave a box. As [`super::hierarchy::clip`], which has the sources.
-pub(super) struct Clip<'a> {
-    /// The rays.
-    pub bundle: &'a mut Bundle,
-    /// The box.
-    pub bounds: &'a Bounds,
+/// Makes unit normals of the gradients of a packet of hits.
+#[inline(always)]
+fn normalise(b: &mut Bundle, first: usize) {
+    for i in first..first + WIDTH {
+        let [x, y, z] = [b.gradient[0][i], b.gradient[1][i], b.gradient[2][i]];
+        let scale = 1.0 / (x * x + y * y + z * z).sqrt();
+        let is_scale = (b.meets[i] != 0) & (scale > 0.0) & (scale < f64::INFINITY);
+        let mut is_open = b.meets[i] != 0;
+        for axis in 0..3 {
+            let unit = b.gradient[axis][i] * scale;
+            let unit = if is_scale { unit } else { 0.0 };
+            is_open &= unit == 0.0;
+            b.gradient[axis][i] = unit;
+        }
+        b.meets[i] = u8::from(is_open);
+    }
+}
+
+/// Finds the normals of the hits on a part in closed form.
+struct Normals<'a, F> {
+    bundle: &'a mut Bundle,
+    form: &'a F,
+    number: u32,
+}
+
+impl<F: ClosedForm> Task for Normals<'_, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let b = self.bundle;
+        let number = u64::from(self.number);
+        for i in 0..b.lanes() {
+            let normal = self.form.normal(place(&b.point, i));
+            let is_here = (b.meets[i] != 0) & (b.part[i] == number);
+            for axis in 0..3 {
+                let before = b.gradient[axis][i];
+                b.gradient[axis][i] = if is_here { normal[axis] } else { before };
+            }
+            b.meets[i] = if is_here { 0 } else { b.meets[i] };
+        }
+    }
+}
+
+/// As [`Bundle::blocked`].
+struct Blocked<'a>(&'a Bundle);
+
+impl Task for Blocked<'_> {
+    type Output = [Verdict; CAPACITY];
+
+    #[inline(always)]
+    fn run(self) -> [Verdict; CAPACITY] {
+        let mut verdicts = [Verdict::Miss; CAPACITY];
+        for i in 0..self.0.lanes() {
+            let best = Crossing {
+                t: self.0.t[i],
+                error: self.0.error[i],
+            };
+            verdicts[i] = occluded(best, self.0.unknown[i]);
+        }
+        verdicts
+    }
+}
+
+/// As [`Bundle::clip`], and [`super::hierarchy::clip`], which has the sources.
+struct Clip<'a> {
+    bundle: &'a mut Bundle,
+    bounds: &'a Bounds,
 }
 
 impl Task for Clip<'_> {

@@ -1,6 +1,6 @@
 //! Convex solids whose stretch on a ray is known in closed form.
 
-use super::analytic::{Ball, HalfSpace, U, chord_ends, chord_error, face};
+use super::analytic::{Ball, ClosedForm, HalfSpace, U, chord_ends, chord_error, face};
 use crate::catalogue::{AnyPrimitive, Similarity};
 use glam::DVec3;
 
@@ -94,7 +94,7 @@ impl Solid for Ball {
     }
 
     fn normal(&self, p: DVec3) -> DVec3 {
-        Ball::normal(self, p)
+        ClosedForm::normal(self, p)
     }
 }
 

@@ -57,6 +57,21 @@ pub(super) fn concluded(best: Crossing, unknown: f64) -> (Verdict, f64, f64) {
     (verdict, t, if is_unknown { f64::INFINITY } else { error })
 }
 
+/// The verdict on a ray that is content with any hit: whichever it is, it counts.
+#[inline(always)]
+pub(super) fn occluded(best: Crossing, unknown: f64) -> Verdict {
+    let doubtful = if unknown < f64::INFINITY {
+        Verdict::Unknown
+    } else {
+        Verdict::Miss
+    };
+    if best.t < f64::INFINITY {
+        Verdict::Hit
+    } else {
+        doubtful
+    }
+}
+
 impl Finding {
     /// Nothing yet.
     pub const NOTHING: Self = Self {
@@ -113,15 +128,8 @@ impl Finding {
 
     /// What a ray finds that is content with any hit.
     pub fn occlusion(&self) -> Occlusion {
-        let verdict = if self.is_hit() {
-            Verdict::Hit
-        } else if self.unknown < f64::INFINITY {
-            Verdict::Unknown
-        } else {
-            Verdict::Miss
-        };
         Occlusion {
-            verdict,
+            verdict: occluded(self.best, self.unknown),
             steps: self.steps,
             evaluations: self.evaluations,
         }

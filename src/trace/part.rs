@@ -42,18 +42,6 @@ impl PartKind {
             Self::Marched(_) => "sphere tracing",
         }
     }
-
-    /// The outward unit normal at a point of the surface; `None` where that is not known in closed form.
-    #[inline]
-    pub(super) fn normal(&self, p: DVec3) -> Option<DVec3> {
-        match self {
-            Self::Ball(ball) => Some(ball.normal(p)),
-            Self::HalfSpace(plane) => Some(plane.normal),
-            Self::Block(block) => Some(block.normal(p)),
-            Self::Facet(facet) => Some(facet.normal),
-            Self::Marched(_) => None,
-        }
-    }
 }
 
 /// A field ready to be marched.

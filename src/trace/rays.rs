@@ -1,7 +1,7 @@
 //! Rays and what they found, side by side in columns, so that lanes work on many of them.
 
-use super::columns::Columns;
-use super::{Footprint, Outcome, Ray, Verdict};
+use super::{Footprint, Occlusion, Outcome, Ray, Verdict};
+use crate::num::Columns;
 use glam::DVec3;
 
 /// Rays side by side: the numbers of [`Ray`], in columns.
@@ -90,6 +90,24 @@ impl Rays {
     /// If a column is too short.
     pub fn pick(&mut self, columns: [&[f64]; Self::COLUMNS], numbers: &[u32]) {
         self.0.pick(columns, numbers);
+    }
+
+    /// Adds the rays of other columns.
+    ///
+    /// # Panics
+    /// If the columns differ in length.
+    pub fn append(&mut self, columns: [&[f64]; Self::COLUMNS]) {
+        self.0.append(columns);
+    }
+
+    /// Makes it so many, of whatever was there.
+    pub fn resize(&mut self, count: usize) {
+        self.0.resize(count);
+    }
+
+    /// Forgets all of them.
+    pub fn clear(&mut self) {
+        self.resize(0);
     }
 
     /// All columns.
@@ -183,6 +201,16 @@ impl Outcomes {
         [5, 6, 7].map(|k| self.numbers.column(k))
     }
 
+    /// Makes it so many, of whatever was there.
+    pub(super) fn resize(&mut self, count: usize) {
+        let nothing = Outcome::NOTHING;
+        self.verdict.resize(count, nothing.verdict);
+        self.part.resize(count, nothing.part);
+        self.steps.resize(count, nothing.steps);
+        self.evaluations.resize(count, nothing.evaluations);
+        self.numbers.resize(count);
+    }
+
     /// Distances, errors, places and normals, to be written.
     pub(super) fn columns_mut(&mut self) -> [&mut [f64]; 8] {
         self.numbers.columns_mut()
@@ -223,6 +251,49 @@ impl FromIterator<Outcome> for Outcomes {
             all.part.push(outcome.part);
             all.steps.push(outcome.steps);
             all.evaluations.push(outcome.evaluations);
+        }
+        all
+    }
+}
+
+/// What shadow rays found, side by side: the numbers of [`Occlusion`], in columns.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Occlusions {
+    /// `Hit` where something lies between, `Miss` where nothing does.
+    pub verdict: Vec<Verdict>,
+    /// How many steps were taken.
+    pub steps: Vec<u32>,
+    /// How many times a field was evaluated.
+    pub evaluations: Vec<u32>,
+}
+
+impl Occlusions {
+    /// Makes it so many, of whatever was there.
+    pub(super) fn resize(&mut self, count: usize) {
+        self.verdict.resize(count, Verdict::Miss);
+        self.steps.resize(count, 0);
+        self.evaluations.resize(count, 0);
+    }
+
+    /// All of them, in order.
+    pub fn iter(&self) -> impl Iterator<Item = Occlusion> {
+        let counts = self.steps.iter().zip(&self.evaluations);
+        let all = self.verdict.iter().zip(counts);
+        all.map(|(verdict, (steps, evaluations))| Occlusion {
+            verdict: *verdict,
+            steps: *steps,
+            evaluations: *evaluations,
+        })
+    }
+}
+
+impl FromIterator<Occlusion> for Occlusions {
+    fn from_iter<I: IntoIterator<Item = Occlusion>>(occlusions: I) -> Self {
+        let mut all = Self::default();
+        for occlusion in occlusions {
+            all.verdict.push(occlusion.verdict);
+            all.steps.push(occlusion.steps);
+            all.evaluations.push(occlusion.evaluations);
         }
         all
     }

@@ -6,7 +6,7 @@
 
 use super::analytic::{ClosedForm, Crossing};
 use super::beam::Beam;
-use super::bundle::{Bundle, CAPACITY, Clip, Enter, Farthest, WIDTH};
+use super::bundle::{Bundle, CAPACITY, Enter, Farthest, WIDTH};
 use super::cut::{Cut, Workshop};
 use super::hierarchy::{BRANCHES, Boxes};
 use super::inclines::{Derivatives, Gradient};
@@ -112,7 +112,7 @@ impl World {
         scratch: &mut Scratch,
         answer: &mut dyn FnMut(&mut Bundle, &[u32]),
     ) {
-        scratch.bundle.fill(rays, numbers, self.level);
+        scratch.bundle.fill(rays, numbers);
         let beam = Beam::around(&scratch.bundle, self.level);
         let limit = self.farthest(&scratch.bundle);
         match known {
@@ -206,9 +206,8 @@ impl World {
             PartKind::Block(form) => self.enter(form, number, any, bundle),
             PartKind::Facet(form) => self.enter(form, number, any, bundle),
             PartKind::Marched(marched) => {
-                let bounds = &marched.region;
-                run_at(self.level, Clip { bundle, bounds });
-                bundle.clipped(&mut scratch.rays);
+                bundle.clip(&marched.region, self.level);
+                bundle.meeting(&mut scratch.rays);
                 !scratch.rays.is_empty() && self.march(marched, number, beam, any, scratch)
             }
         }
@@ -222,7 +221,11 @@ impl World {
             number,
             any,
         };
-        run_at(self.level, task)
+        let is_new = run_at(self.level, task);
+        if is_new {
+            bundle.winners.push(number);
+        }
+        is_new
     }
 
     /// How far the farthest ray of a bundle is still to be followed.

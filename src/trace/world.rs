@@ -1,7 +1,7 @@
 //! The world: a scene that is ready to be traced.
 
-use super::analytic::Crossing;
-use super::bundle::{Bundle, Conclude, place, run};
+use super::analytic::{ClosedForm, Crossing};
+use super::bundle::{Bundle, run};
 use super::finding::Finding;
 use super::hierarchy::{Boxes, Hierarchy, clip, stretch};
 use super::join::joined;
@@ -13,8 +13,8 @@ use super::method::{
 use super::part::{Marched, Part, PartKind, flatten};
 use super::survey::{resolved, survey};
 use super::sweep::Question;
-use super::{Occlusion, Outcome, Outcomes, Ray, Rays, Verdict};
-use crate::field::{Level, normal, run_at, shares};
+use super::{Occlusion, Occlusions, Outcome, Outcomes, Ray, Rays, Verdict};
+use crate::field::{Level, normal, shares};
 use crate::scene::{Fault, Material, Method, Node, Scene, Settings, Shadow};
 use glam::DVec3;
 use std::array;
@@ -150,61 +150,74 @@ impl World {
 
     /// As [`World::nearest`], for rays side by side.
     pub fn trace(&self, rays: &Rays, visibility: Visibility) -> Outcomes {
+        let mut found = Outcomes::default();
+        self.trace_into(rays, visibility, &mut found);
+        found
+    }
+
+    /// As [`World::trace`]; what was in `found` before is forgotten.
+    pub fn trace_into(&self, rays: &Rays, visibility: Visibility, found: &mut Outcomes) {
         let is_seen = |part: &Part| visibility == Visibility::All || part.shadow != Shadow::None;
         if self.settings.method == Method::Auto {
-            let mut outcomes = Outcomes::nothing(rays.len());
+            found.resize(rays.len());
             let question = Question {
                 is_seen: &is_seen,
                 any: false,
             };
+            let mut open = Vec::new();
             self.sweep(rays, &question, &mut |bundle, numbers| {
-                self.conclude(rays, bundle, numbers, &mut outcomes);
+                self.conclude(rays, bundle, numbers, (found, &mut open));
             });
-            return outcomes;
+            return;
         }
         let rays: Vec<Ray> = rays.iter().collect();
         let searches = self.search(&rays, &is_seen, false);
-        rays.iter()
-            .zip(&searches)
-            .map(|(ray, search)| {
-                let outcome = search.finding.outcome(ray);
-                let is_hit = outcome.verdict == Verdict::Hit;
-                let normal = if is_hit {
-                    self.normal(&outcome, ray)
-                } else {
-                    outcome.normal
-                };
-                Outcome { normal, ..outcome }
-            })
-            .collect()
+        let outcomes = rays.iter().zip(&searches).map(|(ray, search)| {
+            let outcome = search.finding.outcome(ray);
+            let is_hit = outcome.verdict == Verdict::Hit;
+            let normal = if is_hit {
+                self.normal(&outcome, ray)
+            } else {
+                outcome.normal
+            };
+            Outcome { normal, ..outcome }
+        });
+        *found = outcomes.collect();
     }
 
     /// Whether any opaque surface lies on each ray; parts whose shadow is tinted or none are passed over.
     pub fn occluded(&self, rays: &[Ray]) -> Vec<Occlusion> {
-        self.occlusions(&rays.iter().collect())
+        self.occlusions(&rays.iter().collect()).iter().collect()
     }
 
     /// As [`World::occluded`], for rays side by side.
-    pub fn occlusions(&self, rays: &Rays) -> Vec<Occlusion> {
+    pub fn occlusions(&self, rays: &Rays) -> Occlusions {
+        let mut found = Occlusions::default();
+        self.occlusions_into(rays, &mut found);
+        found
+    }
+
+    /// As [`World::occlusions`]; what was in `found` before is forgotten.
+    pub fn occlusions_into(&self, rays: &Rays, found: &mut Occlusions) {
         if self.settings.method == Method::Auto {
-            let mut occlusions = vec![Finding::NOTHING.occlusion(); rays.len()];
+            found.resize(rays.len());
             let question = Question {
                 is_seen: &|part: &Part| part.shadow == Shadow::Opaque,
                 any: true,
             };
             self.sweep(rays, &question, &mut |bundle, numbers| {
-                for (i, number) in numbers.iter().enumerate() {
-                    occlusions[*number as usize] = bundle.finding(i).occlusion();
-                }
+                let verdicts = bundle.blocked(self.level);
+                let n = numbers.len();
+                put(&mut found.verdict, numbers, &verdicts[..n]);
+                put(&mut found.steps, numbers, &bundle.steps[..n]);
+                put(&mut found.evaluations, numbers, &bundle.evaluations[..n]);
             });
-            return occlusions;
+            return;
         }
         let rays: Vec<Ray> = rays.iter().collect();
         let searches = self.search(&rays, &|part: &Part| part.shadow == Shadow::Opaque, true);
-        searches
-            .iter()
-            .map(|search| search.finding.occlusion())
-            .collect()
+        let occlusions = searches.iter().map(|search| search.finding.occlusion());
+        *found = occlusions.collect();
     }
 
     /// The same world with every Lipschitz constant that methods take steps by times a factor. Below 1, that is no bound any
@@ -386,39 +399,44 @@ impl World {
 
     /// Puts down what the rays of a bundle, with these numbers, found. Their normals are the directions of the gradients at
     /// their hits, where these are known and not zero.
-    fn conclude(&self, rays: &Rays, bundle: &mut Bundle, numbers: &[u32], outcomes: &mut Outcomes) {
-        let verdicts = run_at(self.level, Conclude(bundle));
+    fn conclude(
+        &self,
+        rays: &Rays,
+        bundle: &mut Bundle,
+        numbers: &[u32],
+        (outcomes, open): (&mut Outcomes, &mut Vec<u32>),
+    ) {
+        let verdicts = bundle.conclude(self.level);
+        for k in 0..bundle.winners.len() {
+            let number = bundle.winners[k];
+            match &self.parts[number as usize].kind {
+                PartKind::Ball(ball) => bundle.turn(ball, number, self.level),
+                PartKind::HalfSpace(plane) => bundle.turn(plane, number, self.level),
+                PartKind::Block(block) => bundle.turn(block, number, self.level),
+                PartKind::Facet(facet) => bundle.turn(facet, number, self.level),
+                PartKind::Marched(_) => {}
+            }
+        }
         let n = numbers.len();
         put(&mut outcomes.verdict, numbers, &verdicts[..n]);
+        put(&mut outcomes.part, numbers, &bundle.hit[..n]);
         put(&mut outcomes.steps, numbers, &bundle.steps[..n]);
         put(&mut outcomes.evaluations, numbers, &bundle.evaluations[..n]);
         let [t, error, point @ .., x, y, z] = outcomes.columns_mut();
         put(t, numbers, &bundle.enter[..n]);
         put(error, numbers, &bundle.leave[..n]);
-        if verdicts[..n].iter().all(|verdict| *verdict != Verdict::Hit) {
-            return;
-        }
         for (column, axis) in [x, y, z].into_iter().zip(&bundle.gradient) {
             put(column, numbers, &axis[..n]);
         }
         for (column, axis) in point.into_iter().zip(&bundle.point) {
             put(column, numbers, &axis[..n]);
         }
-        for (i, number) in numbers.iter().enumerate() {
-            if verdicts[i] != Verdict::Hit {
-                continue;
-            }
-            let number = *number as usize;
-            outcomes.part[number] = bundle.part(i);
-            if (0..3).all(|axis| bundle.gradient[axis][i] == 0.0) {
-                let closed = self.parts[bundle.part(i) as usize]
-                    .kind
-                    .normal(place(&bundle.point, i));
-                let normal =
-                    closed.unwrap_or_else(|| self.normal(&outcomes.at(number), &rays.at(number)));
-                let [.., x, y, z] = outcomes.columns_mut();
-                [x[number], y[number], z[number]] = normal.to_array();
-            }
+        bundle.meeting(open);
+        for i in open {
+            let number = numbers[*i as usize] as usize;
+            let normal = self.normal(&outcomes.at(number), &rays.at(number));
+            let [.., x, y, z] = outcomes.columns_mut();
+            [x[number], y[number], z[number]] = normal.to_array();
         }
     }
 
@@ -430,7 +448,10 @@ impl World {
                 let back = hit.error.max(pixel);
                 normal(marched.gradient(), hit.point, ray.direction, back)
             }
-            closed => closed.normal(hit.point).unwrap_or(DVec3::ZERO),
+            PartKind::Ball(ball) => ball.normal(hit.point),
+            PartKind::HalfSpace(plane) => plane.normal,
+            PartKind::Block(block) => block.normal(hit.point),
+            PartKind::Facet(facet) => facet.normal,
         }
     }
 }

@@ -3,7 +3,7 @@
 use fieldstone::scene::{Light, Material, Scene, Shadow, Sky, Term};
 use fieldstone::shade::{Census, Surfaces, Whitted};
 use fieldstone::trace::{
-    Footprint, Occlusion, Outcome, Outcomes, Paint, Ray, Rays, Verdict, Visibility,
+    Footprint, Occlusion, Occlusions, Outcome, Outcomes, Paint, Ray, Rays, Verdict, Visibility,
 };
 use glam::DVec3;
 use std::sync::{Arc, Mutex};
@@ -115,21 +115,20 @@ impl Stage {
 }
 
 impl Surfaces for Stage {
-    fn nearest(&self, rays: &Rays, visibility: Visibility) -> Outcomes {
+    fn nearest(&self, rays: &Rays, visibility: Visibility, found: &mut Outcomes) {
         self.traced.lock().unwrap().push(rays.iter().collect());
         let is_seen = |m: &Material| visibility == Visibility::All || m.shadow != Shadow::None;
-        rays.iter().map(|ray| self.find(&ray, is_seen)).collect()
+        *found = rays.iter().map(|ray| self.find(&ray, is_seen)).collect();
     }
 
-    fn occluded(&self, rays: &Rays) -> Vec<Occlusion> {
+    fn occluded(&self, rays: &Rays, found: &mut Occlusions) {
         self.shadow_rays.lock().unwrap().extend(rays.iter());
-        rays.iter()
-            .map(|ray| Occlusion {
-                verdict: self.find(&ray, |m| m.shadow == Shadow::Opaque).verdict,
-                steps: 1,
-                evaluations: 1,
-            })
-            .collect()
+        let occlusion = |ray: Ray| Occlusion {
+            verdict: self.find(&ray, |m| m.shadow == Shadow::Opaque).verdict,
+            steps: 1,
+            evaluations: 1,
+        };
+        *found = rays.iter().map(occlusion).collect();
     }
 
     fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>> {
@@ -165,7 +164,7 @@ pub fn see(scene: &Scene, stage: &Stage, ray: Ray) -> (DVec3, Census) {
     let rays = Rays::from_iter([ray]);
     let outcomes = whitted.first_hits(&rays, &mut census);
     let light = whitted.light(&rays, &outcomes, &mut census);
-    (light.radiance[0], census)
+    (DVec3::from_array(light.radiance.row(0)), census)
 }
 
 /// A scene of lights and a black sky.

@@ -1,10 +1,10 @@
 //! Tables of numbers, column by column in one piece of memory.
 
-use std::array;
+use std::{array, mem};
 
 /// `N` columns of one length.
 #[derive(Clone, Debug)]
-pub(super) struct Columns<const N: usize> {
+pub struct Columns<const N: usize> {
     /// The columns one after the other, each with the room that all of them have.
     numbers: Vec<f64>,
     room: usize,
@@ -30,34 +30,57 @@ impl<const N: usize> Columns<N> {
         }
     }
 
+    /// How many rows there are.
     pub fn len(&self) -> usize {
         self.rows
     }
 
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.rows == 0
+    }
+
+    /// Column number `k`.
     #[inline(always)]
     pub fn column(&self, k: usize) -> &[f64] {
         &self.numbers[k * self.room..][..self.rows]
     }
 
+    /// Column number `k`, to be written.
     pub fn column_mut(&mut self, k: usize) -> &mut [f64] {
         &mut self.numbers[k * self.room..][..self.rows]
     }
 
     /// Row number `i`.
+    ///
+    /// # Panics
+    /// If there are fewer.
     #[inline]
     pub fn row(&self, i: usize) -> [f64; N] {
         assert!(i < self.rows, "there are so many rows");
         array::from_fn(|k| self.numbers[k * self.room + i])
     }
 
+    /// All columns.
     pub fn columns(&self) -> [&[f64]; N] {
         array::from_fn(|k| self.column(k))
     }
 
+    /// All columns, to be written.
     pub fn columns_mut(&mut self) -> [&mut [f64]; N] {
-        let rows = self.rows;
-        let mut columns = self.numbers.chunks_exact_mut(self.room);
-        array::from_fn(|_| columns.next().map_or(&mut [][..], |c| &mut c[..rows]))
+        let (room, rows) = (self.room, self.rows);
+        let mut rest = &mut self.numbers[..];
+        array::from_fn(|_| {
+            let (column, others) = mem::take(&mut rest).split_at_mut(room);
+            rest = others;
+            &mut column[..rows]
+        })
+    }
+
+    /// Makes it so many rows, of whatever was there.
+    pub fn resize(&mut self, rows: usize) {
+        self.rows = self.rows.min(rows);
+        self.grow(rows - self.rows);
     }
 
     /// Adds a row.
@@ -69,6 +92,9 @@ impl<const N: usize> Columns<N> {
     }
 
     /// Adds these rows of other columns.
+    ///
+    /// # Panics
+    /// If a column is too short.
     pub fn pick(&mut self, columns: [&[f64]; N], rows: &[u32]) {
         let first = self.rows;
         self.grow(rows.len());
@@ -76,6 +102,18 @@ impl<const N: usize> Columns<N> {
             for (number, row) in target[first..].iter_mut().zip(rows) {
                 *number = source[*row as usize];
             }
+        }
+    }
+
+    /// Adds the rows of other columns.
+    ///
+    /// # Panics
+    /// If the columns differ in length.
+    pub fn append(&mut self, columns: [&[f64]; N]) {
+        let first = self.rows;
+        self.grow(columns.first().map_or(0, |column| column.len()));
+        for (target, source) in self.columns_mut().into_iter().zip(columns) {
+            target[first..].copy_from_slice(source);
         }
     }
 
@@ -118,10 +156,14 @@ mod tests {
         let mut some = Columns::<3>::with_capacity(1);
         some.pick(columns.columns(), &[7, 99, 3]);
         some.pick(columns.columns(), &[50]);
-        for (place, i) in [7, 99, 3, 50].into_iter().enumerate() {
+        some.append(columns.columns().map(|column| &column[20..22]));
+        for (place, i) in [7, 99, 3, 50, 20, 21].into_iter().enumerate() {
             let found: [f64; 3] = array::from_fn(|k| some.column(k)[place]);
             assert_eq!(found, row(i));
         }
-        assert_eq!((columns.len(), some.len()), (100, 4));
+        assert_eq!((columns.len(), some.len()), (100, 6));
+        some.resize(2);
+        some.append(columns.columns().map(|column| &column[..1]));
+        assert_eq!((some.len(), some.row(1), some.row(2)), (3, row(99), row(0)));
     }
 }

@@ -14,10 +14,9 @@ pub struct Columns<const N: usize> {
 impl<const N: usize> Columns<N> {
     /// No rows, with room for as many.
     pub fn with_capacity(rows: usize) -> Self {
-        let room = rows.max(1);
         Self {
-            numbers: vec![0.0; N * room],
-            room,
+            numbers: vec![0.0; N * rows],
+            room: rows,
             rows: 0,
         }
     }

@@ -4,7 +4,7 @@ use super::Channel;
 use super::film::Patch;
 use crate::num::Columns;
 use crate::shade::Received;
-use crate::trace::{Outcomes, Verdict};
+use crate::trace::{Outcomes, Verdict, count};
 use glam::DVec3;
 
 /// The samples of a block so far.
@@ -31,22 +31,42 @@ enum Sum {
 }
 
 impl Exposure {
-    /// Nothing yet of that many pixels, for these channels.
-    pub fn new(channels: &[Channel], pixels: usize) -> Self {
-        let far = f64::INFINITY;
+    /// Nothing yet of no pixels, for these channels.
+    pub fn new(channels: &[Channel]) -> Self {
         let sum = |channel: &Channel| match channel {
-            Channel::Beauty => Sum::Beauty(Columns::zeros(pixels)),
-            Channel::Color => Sum::Color(Columns::zeros(pixels)),
-            Channel::Depth => Sum::Depth(vec![far; pixels]),
-            Channel::Normal => Sum::Normal(vec![(DVec3::ZERO, far); pixels]),
-            Channel::Steps => Sum::Steps(vec![0; pixels]),
-            Channel::Evaluations => Sum::Evaluations(vec![0; pixels]),
-            Channel::Verdict => Sum::Verdict(vec![false; pixels]),
-            Channel::Object => Sum::Object(vec![(0, far); pixels]),
+            Channel::Beauty => Sum::Beauty(Columns::default()),
+            Channel::Color => Sum::Color(Columns::default()),
+            Channel::Depth => Sum::Depth(Vec::new()),
+            Channel::Normal => Sum::Normal(Vec::new()),
+            Channel::Steps => Sum::Steps(Vec::new()),
+            Channel::Evaluations => Sum::Evaluations(Vec::new()),
+            Channel::Verdict => Sum::Verdict(Vec::new()),
+            Channel::Object => Sum::Object(Vec::new()),
         };
         Self {
-            is_unknown: vec![false; pixels],
+            is_unknown: Vec::new(),
             sums: channels.iter().map(sum).collect(),
+        }
+    }
+
+    /// Forgets all of it, for that many pixels.
+    pub fn reset(&mut self, pixels: usize) {
+        let far = f64::INFINITY;
+        begin(&mut self.is_unknown, pixels, false);
+        for sum in &mut self.sums {
+            match sum {
+                Sum::Beauty(sums) | Sum::Color(sums) => {
+                    sums.resize(pixels);
+                    for channel in sums.columns_mut() {
+                        channel.fill(0.0);
+                    }
+                }
+                Sum::Depth(depths) => begin(depths, pixels, far),
+                Sum::Normal(normals) => begin(normals, pixels, (DVec3::ZERO, far)),
+                Sum::Steps(sums) | Sum::Evaluations(sums) => begin(sums, pixels, 0),
+                Sum::Verdict(hits) => begin(hits, pixels, false),
+                Sum::Object(objects) => begin(objects, pixels, (0, far)),
+            }
         }
     }
 
@@ -54,8 +74,10 @@ impl Exposure {
     pub fn add_hits(&mut self, outcomes: &Outcomes) {
         let (t, outward) = (outcomes.t(), outcomes.normal());
         let hit = |i: usize, before: f64| outcomes.verdict[i] == Verdict::Hit && t[i] < before;
-        for (is_unknown, verdict) in self.is_unknown.iter_mut().zip(&outcomes.verdict) {
-            *is_unknown |= *verdict == Verdict::Unknown;
+        if count(&outcomes.verdict, Verdict::Unknown) > 0 {
+            for (is_unknown, verdict) in self.is_unknown.iter_mut().zip(&outcomes.verdict) {
+                *is_unknown |= *verdict == Verdict::Unknown;
+            }
         }
         for sum in &mut self.sums {
             match sum {
@@ -149,6 +171,12 @@ impl Exposure {
             }
         }
     }
+}
+
+/// Makes it so many of the same.
+fn begin<T: Copy>(sums: &mut Vec<T>, pixels: usize, first: T) {
+    sums.clear();
+    sums.resize(pixels, first);
 }
 
 fn each<T>(sums: &mut [T], mut change: impl FnMut(usize, &mut T)) {

@@ -5,8 +5,9 @@ use super::film::Patch;
 use super::statistics::Tally;
 use super::{Channel, View, sampling};
 use crate::scene::Settings;
-use crate::shade::{Surfaces, Whitted};
+use crate::shade::{Received, Surfaces, Whitted};
 use crate::trace::{Outcomes, Rays};
+use std::cell::Cell;
 use std::time::Instant;
 
 /// What all tiles of a picture share.
@@ -57,9 +58,10 @@ impl Tile {
         let start = Instant::now();
         let mut tally = Tally::default();
         let samples = shared.settings.samples.max(1);
-        let mut desk = Desk::default();
+        let mut desk = DESK.with(Cell::take).unwrap_or_default();
+        let mut exposure = Exposure::new(shared.channels);
         for block in self.blocks() {
-            let mut exposure = Exposure::new(shared.channels, block.len());
+            exposure.reset(block.len());
             for sample in 0..samples {
                 desk.aim(shared, &block, sample);
                 desk.expose(shared, &mut exposure, &mut tally);
@@ -67,6 +69,7 @@ impl Tile {
             tally.unknown_pixels += exposure.unknown() as u64;
             exposure.develop(samples, &block, patch);
         }
+        DESK.with(|cell| cell.set(Some(desk)));
         tally.busy = start.elapsed();
         tally
     }
@@ -106,6 +109,10 @@ fn block(corner: [u32; 2], end: [u32; 2]) -> Vec<[u32; 2]> {
     pixels.into_iter().filter(is_within).collect()
 }
 
+thread_local! {
+    static DESK: Cell<Option<Desk>> = const { Cell::new(None) };
+}
+
 /// The rays of a sample of some pixels; memory that is used again for the next.
 #[derive(Default)]
 struct Desk {
@@ -113,6 +120,7 @@ struct Desk {
     places: Vec<[f64; 2]>,
     rays: Rays,
     outcomes: Outcomes,
+    light: Received,
 }
 
 impl Desk {
@@ -138,7 +146,12 @@ impl Desk {
         exposure: &mut Exposure,
         tally: &mut Tally,
     ) {
-        let Self { rays, outcomes, .. } = self;
+        let Self {
+            rays,
+            outcomes,
+            light,
+            ..
+        } = self;
         let whitted = &shared.whitted;
         whitted.meet_first(rays, &mut tally.census, outcomes);
         exposure.add_hits(outcomes);
@@ -147,7 +160,8 @@ impl Desk {
             exposure.add_colors(&whitted.flat_colors(rays, outcomes));
         }
         if shared.channels.contains(&Channel::Beauty) {
-            exposure.add_light(&whitted.light(rays, outcomes, &mut tally.census));
+            whitted.light_into(rays, outcomes, &mut tally.census, light);
+            exposure.add_light(light);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What a scene needs of the pipeline, chosen once and not for each ray: what is not needed costs nothing.
 
-use crate::scene::{Material, Scene, Shadow};
+use crate::scene::{Material, Model, Scene, Shadow};
 use std::sync::Arc;
 
 /// The stages that a scene compiles in.
@@ -8,6 +8,8 @@ use std::sync::Arc;
 pub struct Features {
     /// There are lights, and some material answers them.
     pub lit: bool,
+    /// Some material has Blinn's highlight, so that the vector half way between light and viewer counts.
+    pub halfway: bool,
     /// Some material casts an opaque shadow.
     pub opaque_shadows: bool,
     /// Some material casts a tinted shadow.
@@ -32,6 +34,7 @@ impl Features {
             !scene.lights.is_empty() && some(&|m| !m.diffuse.is_zero() || !m.specular.is_zero());
         Self {
             lit,
+            halfway: lit && some(&|m| m.model == Model::Blinn),
             opaque_shadows: lit && casts(Shadow::Opaque),
             tinted_shadows: lit && casts(Shadow::Tinted),
             reflects: refracts || some(&|m| !m.reflect.is_zero()),
@@ -45,6 +48,7 @@ impl Features {
     pub fn words(&self) -> Vec<&'static str> {
         [
             (self.lit, "direct light"),
+            (self.halfway, "Blinn's highlights"),
             (self.opaque_shadows, "opaque shadows (any hit)"),
             (self.tinted_shadows, "tinted shadows (straight walk)"),
             (self.reflects, "reflected rays"),

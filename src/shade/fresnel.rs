@@ -6,30 +6,33 @@ use super::refract::transmitted_cosine;
 /// `n1` to one with `n2`; the rest is transmitted. In [0, 1], continuous up to 1 at the critical angle.
 /// Source: Fresnel 1823; the mean of both polarisations.
 pub fn reflected_share(cosine: f64, n1: f64, n2: f64) -> f64 {
-    if n1 == n2 {
-        return 0.0;
-    }
-    let Some(transmitted) = transmitted_cosine(cosine, n1 / n2) else {
-        return 1.0;
-    };
+    share(cosine, transmitted_cosine(cosine, n1, n2), n1, n2)
+}
+
+/// As [`reflected_share`], where the cosine behind the boundary is known; it is no number where nothing is transmitted.
+/// Without branches, to serve in lanes.
+#[inline(always)]
+pub(super) fn share(cosine: f64, transmitted: f64, n1: f64, n2: f64) -> f64 {
     // At least one cosine is positive here: `n1 != n2`, and where the outer one is 0, light bends towards the normal.
     let across = (n1 * cosine - n2 * transmitted) / (n1 * cosine + n2 * transmitted);
     let along = (n2 * cosine - n1 * transmitted) / (n2 * cosine + n1 * transmitted);
-    (0.5 * (across * across + along * along)).min(1.0)
+    let mean = 0.5 * (across * across + along * along);
+    let mean = if mean < 1.0 { mean } else { 1.0 };
+    if n1 == n2 { 0.0 } else { mean }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn share(degrees: f64, n1: f64, n2: f64) -> f64 {
+    fn at(degrees: f64, n1: f64, n2: f64) -> f64 {
         reflected_share(degrees.to_radians().cos(), n1, n2)
     }
 
     #[test]
     fn glass_reflects_four_per_cent_head_on() {
-        assert!((share(0.0, 1.0, 1.5) - 0.04).abs() < 1e-15);
-        assert!((share(0.0, 1.5, 1.0) - 0.04).abs() < 1e-15);
+        assert!((at(0.0, 1.0, 1.5) - 0.04).abs() < 1e-15);
+        assert!((at(0.0, 1.5, 1.0) - 0.04).abs() < 1e-15);
     }
 
     #[test]
@@ -46,7 +49,7 @@ mod tests {
                 let across = 2.0 * n1 * c1 / (n1 * c1 + n2 * c2);
                 let along = 2.0 * n1 * c1 / (n2 * c1 + n1 * c2);
                 let transmitted = n2 * c2 / (n1 * c1) * 0.5 * (across * across + along * along);
-                let sum = share(degrees, n1, n2) + transmitted;
+                let sum = at(degrees, n1, n2) + transmitted;
                 assert!((sum - 1.0).abs() < 1e-14, "{n1} {n2} {degrees}: {sum}");
             }
         }
@@ -57,20 +60,20 @@ mod tests {
         // There the light polarised along the plane is not reflected at all.
         let brewster = 1.5f64.atan();
         let across = ((1.0 - 1.5 * 1.5) / (1.0 + 1.5 * 1.5f64)).powi(2);
-        assert!((share(brewster.to_degrees(), 1.0, 1.5) - across / 2.0).abs() < 1e-15);
+        assert!((at(brewster.to_degrees(), 1.0, 1.5) - across / 2.0).abs() < 1e-15);
     }
 
     #[test]
     fn share_reaches_one_at_the_critical_angle_without_a_jump() {
         let critical = (1.0f64 / 1.5).asin().to_degrees();
-        assert!(share(critical, 1.5, 1.0) > 1.0 - 1e-6);
+        assert!(at(critical, 1.5, 1.0) > 1.0 - 1e-6);
         // Series at the critical angle c: 1 - R = 2 (n + 1/n) sqrt(2 n cos(c) off) / cos(c) + O(off).
         let (n, c) = (1.5f64, critical.to_radians().cos());
         for off in [1e-7f64, 1e-3] {
-            let missing = 1.0 - share(critical - off, 1.5, 1.0);
+            let missing = 1.0 - at(critical - off, 1.5, 1.0);
             let series = 2.0 * (n + 1.0 / n) * (2.0 * n * c * off.to_radians()).sqrt() / c;
             assert!((missing / series - 1.0).abs() < 0.03, "{off}: {missing}");
-            assert_eq!(share(critical + off, 1.5, 1.0), 1.0);
+            assert_eq!(at(critical + off, 1.5, 1.0), 1.0);
         }
     }
 

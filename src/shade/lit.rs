@@ -131,6 +131,8 @@ pub struct Shine<'a> {
     pub rays: &'a Rays,
     /// What they found.
     pub outcomes: &'a Outcomes,
+    /// Whether the cosine half way between lamp and viewer is wanted; else it is 0.
+    pub has_halfway: bool,
 }
 
 impl Task for Shine<'_> {
@@ -152,11 +154,17 @@ impl Task for Shine<'_> {
             });
         for i in 0..n {
             let (normal, toward) = (placed(&lit.normal, i), placed(&lit.way, i));
-            let cosines = Cosines::new(normal, toward, -place(view, i));
+            let cosines = Cosines::of_mirror(normal, toward, -place(view, i));
             lit.light[i] = cosines.light;
             lit.mirror[i] = cosines.mirror;
             lit.halfway[i] = cosines.halfway;
             lit.end[i] = f64::INFINITY;
+        }
+        if self.has_halfway {
+            for i in 0..n {
+                let (normal, toward) = (placed(&lit.normal, i), placed(&lit.way, i));
+                lit.halfway[i] = Cosines::halfway(normal, toward, -place(view, i));
+            }
         }
         if let Some(position) = self.lamp.position() {
             for i in 0..n {

@@ -66,6 +66,14 @@ impl Media {
         self.0.is_none()
     }
 
+    /// Whether they are one and the same; others may be alike too.
+    pub fn is_same(&self, other: &Self) -> bool {
+        match (&self.0, &other.0) {
+            (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+            (a, b) => a.is_none() && b.is_none(),
+        }
+    }
+
     /// The innermost medium; `None` in empty space.
     pub fn innermost(&self) -> Option<&Medium> {
         self.0.as_deref().map(|layer| &layer.medium)

@@ -138,33 +138,11 @@ impl Palette {
         looks.own.clear();
         looks.numbers.clear();
         looks.varied.clear();
-        let mut last = None;
-        for (i, verdict) in outcomes.verdict.iter().enumerate() {
-            if *verdict != Verdict::Hit {
-                looks.numbers.push(NONE);
-                continue;
-            }
-            let part = outcomes.part[i];
-            // Neighbours are mostly on the same part.
-            let sole = match last {
-                Some((same, sole)) if same == part => sole,
-                _ => surfaces.sole(part),
-            };
-            last = Some((part, sole));
-            let number = match sole {
-                Some(number) => {
-                    if !self.swatches[number].patterns.is_empty() {
-                        looks.varied.push((number as u32, i as u32));
-                    }
-                    number as u32
-                }
-                None => {
-                    let [x, y, z] = outcomes.point();
-                    let surface = Surface::of(surfaces, part, DVec3::new(x[i], y[i], z[i]));
-                    surface.map_or(NONE, |surface| looks.add(self, surface))
-                }
-            };
-            looks.numbers.push(number);
+        let mut first = 0;
+        while first < outcomes.len() {
+            let end = first + same_parts(outcomes, first);
+            self.look_at(surfaces, outcomes, first..end, looks);
+            first = end;
         }
         looks.write_terms(self);
         let mut varied = mem::take(&mut looks.varied);
@@ -178,6 +156,54 @@ impl Palette {
     }
 }
 
+/// How many rays from number `first` on hit the same part, or nothing.
+fn same_parts(outcomes: &Outcomes, first: usize) -> usize {
+    /// So many are compared at once.
+    const SOME: usize = 16;
+    let (verdicts, parts) = (&outcomes.verdict[first..], &outcomes.part[first..]);
+    let (verdict, part) = (verdicts[0], parts[0]);
+    let is_same = |i: &usize| (verdicts[*i] == verdict) & (parts[*i] == part);
+    let whole = verdicts.chunks_exact(SOME).zip(parts.chunks_exact(SOME));
+    let same = whole.take_while(|(verdicts, parts)| {
+        let differs = |(v, p): (&Verdict, &u32)| u32::from((*v != verdict) | (*p != part));
+        verdicts.iter().zip(*parts).map(differs).sum::<u32>() == 0
+    });
+    let same = SOME * same.count();
+    same + (same..verdicts.len()).take_while(is_same).count()
+}
+
+impl Palette {
+    /// Finds the surface of rays that hit the same part, or nothing.
+    fn look_at<S: Surfaces + ?Sized>(
+        &self,
+        surfaces: &S,
+        outcomes: &Outcomes,
+        rays: Range<usize>,
+        looks: &mut Looks,
+    ) {
+        let end = rays.end;
+        if outcomes.verdict[rays.start] != Verdict::Hit {
+            looks.numbers.resize(end, NONE);
+            return;
+        }
+        let part = outcomes.part[rays.start];
+        let Some(number) = surfaces.sole(part) else {
+            for i in rays {
+                let [x, y, z] = outcomes.point();
+                let surface = Surface::of(surfaces, part, DVec3::new(x[i], y[i], z[i]));
+                let number = surface.map_or(NONE, |surface| looks.add(self, surface));
+                looks.numbers.push(number);
+            }
+            return;
+        };
+        let number = number as u32;
+        if !self.swatches[number as usize].patterns.is_empty() {
+            looks.varied.extend(rays.map(|i| (number, i as u32)));
+        }
+        looks.numbers.resize(end, number);
+    }
+}
+
 impl Looks {
     /// The surface that ray number `i` hit. Its colour is that of [`Looks::terms`].
     pub fn at<'a>(&'a self, palette: &'a Palette, i: usize) -> Option<&'a Surface> {
@@ -186,6 +212,19 @@ impl Looks {
             Some(swatch) => Some(&swatch.surface),
             None => self.own.get(number.wrapping_sub(palette.swatches.len())),
         }
+    }
+
+    /// The rays that hit the same surface, or nothing, as ranges, with that.
+    pub fn runs<'a>(
+        &'a self,
+        palette: &'a Palette,
+    ) -> impl Iterator<Item = (Range<usize>, Option<&'a Surface>)> {
+        let mut first = 0;
+        self.numbers.chunk_by(|a, b| a == b).map(move |same| {
+            let range = first..first + same.len();
+            first = range.end;
+            (range.clone(), self.at(palette, range.start))
+        })
     }
 
     /// What lighting reads of the surfaces of all rays.
@@ -224,13 +263,11 @@ impl Looks {
         let mut terms = mem::take(&mut self.terms);
         terms.resize(self.numbers.len());
         let mut columns = terms.columns_mut();
-        let mut first = 0;
-        for same in self.numbers.chunk_by(|a, b| a == b) {
-            let row = self.at(palette, first).map_or(BACKDROP, row);
+        for (range, surface) in self.runs(palette) {
+            let row = surface.map_or(BACKDROP, row);
             for (column, number) in columns.iter_mut().zip(row) {
-                column[first..first + same.len()].fill(number);
+                column[range.clone()].fill(number);
             }
-            first += same.len();
         }
         self.terms = terms;
     }

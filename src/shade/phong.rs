@@ -18,19 +18,26 @@ pub struct Cosines {
 
 impl Cosines {
     /// The cosines between vectors of length 1: `normal` on the viewer's side, `toward` the light, `view` towards the viewer.
+    /// That half way is left at 0.
     #[inline(always)]
-    pub fn new(normal: DVec3, toward: DVec3, view: DVec3) -> Self {
+    pub fn of_mirror(normal: DVec3, toward: DVec3, view: DVec3) -> Self {
         let light = normal.dot(toward);
+        Self {
+            light,
+            mirror: (normal * (2.0 * light) - toward).dot(view),
+            halfway: 0.0,
+        }
+    }
+
+    /// The cosine between the normal and half way from light to viewer.
+    #[inline(always)]
+    pub fn halfway(normal: DVec3, toward: DVec3, view: DVec3) -> f64 {
         let sum = toward + view;
         let scale = 1.0 / sum.length();
         // Light opposite to the viewer has nothing half way.
         let is_halfway = (scale > 0.0) & (scale < f64::INFINITY);
         let halfway = normal.dot(sum * scale);
-        Self {
-            light,
-            mirror: (normal * (2.0 * light) - toward).dot(view),
-            halfway: if is_halfway { halfway } else { 0.0 },
-        }
+        if is_halfway { halfway } else { 0.0 }
     }
 }
 
@@ -51,10 +58,10 @@ mod tests {
     use std::sync::Arc;
 
     fn reflectance(surface: &Surface, normal: DVec3, toward: DVec3, view: DVec3) -> DVec3 {
-        let cosines = Cosines::new(normal, toward, view);
+        let cosines = Cosines::of_mirror(normal, toward, view);
         let [mirror, halfway, shininess, blinn] = [
             cosines.mirror,
-            cosines.halfway,
+            Cosines::halfway(normal, toward, view),
             surface.shininess,
             surface.blinn,
         ]

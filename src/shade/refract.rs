@@ -1,25 +1,39 @@
 //! The refracted direction.
 
+use super::reflect::{select, unit_or};
 use glam::DVec3;
 
 /// The direction behind a surface between media with indices `n1` (here) and `n2` (there), by Snell's law
 /// `n1 sin a = n2 sin b`; `None` where all light is reflected. Unit vectors, with `normal` against `incident`.
 pub fn refracted(incident: DVec3, normal: DVec3, n1: f64, n2: f64) -> Option<DVec3> {
-    if n1 == n2 {
-        return Some(incident);
-    }
-    let eta = n1 / n2;
     let cosine = (-incident.dot(normal)).clamp(0.0, 1.0);
-    let transmitted = transmitted_cosine(cosine, eta)?;
-    let direction = incident * eta + normal * (eta * cosine - transmitted);
-    Some(direction.normalize_or(-normal))
+    let transmitted = transmitted_cosine(cosine, n1, n2);
+    let bends = !transmitted.is_nan();
+    bends.then(|| bent(incident, normal, (n1, n2), (cosine, transmitted)))
 }
 
-/// The cosine behind a surface for the `cosine` in [0, 1] before it and `eta = n1 / n2`; `None` from the critical angle
-/// on, where `sin b = 1`.
-pub fn transmitted_cosine(cosine: f64, eta: f64) -> Option<f64> {
+/// As [`refracted`], where the cosines before and behind the surface are known. Without branches, to serve in lanes.
+#[inline(always)]
+pub(super) fn bent(
+    incident: DVec3,
+    normal: DVec3,
+    (n1, n2): (f64, f64),
+    (cosine, transmitted): (f64, f64),
+) -> DVec3 {
+    let eta = n1 / n2;
+    let direction = incident * eta + normal * (eta * cosine - transmitted);
+    select(n1 == n2, incident, unit_or(direction, -normal))
+}
+
+/// The cosine behind a surface for the `cosine` in [0, 1] before it, between media with indices `n1` and `n2`; not a number
+/// from the critical angle on, where `sin b = 1`. Without branches, to serve in lanes.
+#[inline(always)]
+pub(super) fn transmitted_cosine(cosine: f64, n1: f64, n2: f64) -> f64 {
+    let eta = n1 / n2;
     let sine_squared = eta * eta * (1.0 - cosine * cosine);
-    (sine_squared < 1.0).then(|| (1.0 - sine_squared).sqrt())
+    let bends = (sine_squared < 1.0) | (n1 == n2);
+    let transmitted = (1.0 - sine_squared).sqrt();
+    if bends { transmitted } else { f64::NAN }
 }
 
 #[cfg(test)]

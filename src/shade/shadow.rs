@@ -10,7 +10,7 @@ use super::gains::Gains;
 use super::medium::{Media, Medium};
 use super::palette::{Looks, Palette};
 use super::{Census, Features, Surfaces, offset};
-use crate::trace::{Outcome, Outcomes, Ray, Rays, Verdict, Visibility};
+use crate::trace::{Outcome, Outcomes, Ray, Rays, Verdict, Visibility, count};
 use glam::DVec3;
 
 /// How many boundaries a shadow ray may cross before it is given up as unknown, and taken as blocked.
@@ -68,6 +68,9 @@ fn stop<S: Surfaces + ?Sized>(surfaces: &S, gains: &mut Gains, census: &mut Cens
                 *gained
             };
         }
+    }
+    if count(&occlusions.verdict, Verdict::Unknown) == 0 {
+        return Vec::new();
     }
     let verdicts = (0..).zip(&occlusions.verdict);
     let unknown = verdicts.filter(|(_, verdict)| **verdict == Verdict::Unknown);

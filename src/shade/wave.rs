@@ -2,7 +2,7 @@
 
 use super::medium::Media;
 use crate::num::Columns;
-use crate::trace::{Ray, Rays};
+use crate::trace::{Outcomes, Rays};
 use glam::DVec3;
 
 /// Waves with more rays are cut between samples, so that memory stays bounded where every hit sends two rays.
@@ -10,17 +10,6 @@ const LARGEST_WAVE: usize = 1 << 15;
 
 /// Room that waves begin with.
 const USUAL_WAVE: usize = 256;
-
-/// What a ray of a wave carries.
-#[derive(Clone, Debug)]
-pub struct Path {
-    /// The share of its radiance that arrives in the picture.
-    pub weight: DVec3,
-    /// Which camera ray it belongs to.
-    pub sample: u32,
-    /// What it travels in.
-    pub media: Media,
-}
 
 /// What rays carry, side by side.
 #[derive(Clone, Debug, Default)]
@@ -70,15 +59,6 @@ impl Paths {
         self.sample.len()
     }
 
-    /// What ray number `i` carries.
-    pub fn at(&self, i: usize) -> Path {
-        Path {
-            weight: self.weight(i),
-            sample: self.sample[i],
-            media: self.media(i).clone(),
-        }
-    }
-
     /// The weight of ray number `i`.
     pub fn weight(&self, i: usize) -> DVec3 {
         DVec3::from_array(self.weight.row(i))
@@ -89,15 +69,24 @@ impl Paths {
         self.media.get(i).unwrap_or(&Media::EMPTY)
     }
 
-    /// Adds a ray's.
-    fn push(&mut self, path: Path) {
-        if !(self.media.is_empty() && path.media.is_empty()) {
-            self.media.resize(self.len(), Media::EMPTY);
-            self.media.push(path.media);
+    /// Adds what a ray travels in, once its sample is there.
+    fn enter(&mut self, media: &Media) {
+        if !(self.media.is_empty() && media.is_empty()) {
+            self.media.resize(self.len() - 1, Media::EMPTY);
+            self.media.push(media.clone());
         }
-        self.weight.push(path.weight.to_array());
-        self.sample.push(path.sample);
     }
+}
+
+/// Rays of one depth with what they carry and met.
+#[derive(Clone, Copy)]
+pub struct Meetings<'a> {
+    /// The rays.
+    pub rays: &'a Rays,
+    /// What they carry.
+    pub paths: &'a Paths,
+    /// What they met.
+    pub outcomes: &'a Outcomes,
 }
 
 /// The waves that follow from another, of bounded size, each with all rays of its samples.
@@ -118,21 +107,45 @@ impl Waves {
         }
     }
 
-    /// Adds a ray; those of a sample come one after the other.
-    pub fn push(&mut self, ray: &Ray, path: Path) {
-        let takes_more = |wave: &Wave| {
-            wave.paths.len() < LARGEST_WAVE || wave.paths.sample.last() == Some(&path.sample)
-        };
-        if !self.waves.last().is_some_and(takes_more) {
-            self.waves.push(Wave {
-                depth: self.depth,
-                rays: Rays::with_capacity(USUAL_WAVE),
-                paths: Paths::with_capacity(USUAL_WAVE),
-            });
-        }
-        if let Some(wave) = self.waves.last_mut() {
-            wave.rays.push(ray);
-            wave.paths.push(path);
+    /// Adds the rays of these numbers of columns: where they go, and what each weighs, belongs to and travels in. Those of a
+    /// sample come one after the other.
+    pub fn take<'a>(
+        &mut self,
+        numbers: &[u32],
+        (rays, weight): ([&[f64]; Rays::COLUMNS], [&[f64]; 3]),
+        sample: impl Fn(u32) -> u32,
+        media: impl Fn(u32) -> &'a Media,
+    ) {
+        let mut left = numbers;
+        while !left.is_empty() {
+            let last = self.waves.last();
+            let some = match last {
+                Some(wave) if wave.paths.len() >= LARGEST_WAVE => {
+                    let last = wave.paths.sample.last().copied();
+                    let same = left.iter().take_while(|k| Some(sample(**k)) == last);
+                    same.count()
+                }
+                Some(_) => left.len().min(LARGEST_WAVE),
+                None => 0,
+            };
+            if some == 0 {
+                self.waves.push(Wave {
+                    depth: self.depth,
+                    rays: Rays::with_capacity(USUAL_WAVE),
+                    paths: Paths::with_capacity(USUAL_WAVE),
+                });
+                continue;
+            }
+            let (some, rest) = left.split_at(some);
+            if let Some(wave) = self.waves.last_mut() {
+                wave.rays.pick(rays, some);
+                wave.paths.weight.pick(weight, some);
+                for k in some {
+                    wave.paths.sample.push(sample(*k));
+                    wave.paths.enter(media(*k));
+                }
+            }
+            left = rest;
         }
     }
 }
@@ -141,31 +154,26 @@ impl Waves {
 mod tests {
     use super::super::medium::Medium;
     use super::*;
-    use crate::trace::Footprint;
+    use glam::DVec3;
 
-    fn path(sample: u32, media: &Media) -> Path {
-        Path {
-            weight: DVec3::ONE,
-            sample,
-            media: media.clone(),
-        }
+    /// Adds as many rays, whose samples and media these are.
+    fn add(waves: &mut Waves, count: u32, sample: impl Fn(u32) -> u32, media: &[Media]) {
+        let column: Vec<f64> = (0..count).map(f64::from).collect();
+        let numbers: Vec<u32> = (0..count).collect();
+        let columns = ([&column[..]; Rays::COLUMNS], [&column[..]; 3]);
+        waves.take(&numbers, columns, sample, |k| {
+            &media[k as usize % media.len()]
+        });
     }
 
     #[test]
     fn waves_are_cut_between_samples_only() {
-        let ray = Ray {
-            origin: DVec3::ZERO,
-            direction: DVec3::X,
-            t_max: f64::INFINITY,
-            footprint: Footprint {
-                at_origin: 0.0,
-                spread: 0.0,
-            },
-        };
         let mut waves = Waves::new(3);
-        let each = 1000;
-        for k in 0..100_000 {
-            waves.push(&ray, path(k / each, &Media::EMPTY));
+        let (each, chunk) = (1000, 256);
+        for first in (0..100_000).step_by(chunk) {
+            let count = (100_000 - first).min(chunk);
+            let sample = |k: u32| (first as u32 + k) / each;
+            add(&mut waves, count as u32, sample, &[Media::EMPTY]);
         }
         let mut next = 0;
         for wave in &waves.waves {
@@ -186,15 +194,18 @@ mod tests {
             absorb: DVec3::ZERO,
         };
         let wet = Media::EMPTY.entering(water).beyond;
-        let mut paths = Paths::default();
-        for (i, media) in [&Media::EMPTY, &Media::EMPTY, &wet, &Media::EMPTY, &wet]
-            .into_iter()
-            .enumerate()
-        {
-            paths.push(path(i as u32, media));
-            let found = |i: usize| paths.media(i).innermost().map(|medium| medium.part);
-            assert_eq!(found(i), media.innermost().map(|medium| medium.part));
-            assert!((0..=i).all(|k| found(k).is_some() == (k == 2 || k == 4)));
+        let media = [Media::EMPTY, Media::EMPTY, wet.clone(), Media::EMPTY, wet];
+        let mut waves = Waves::new(1);
+        for count in [2, 5, 1, 10] {
+            add(&mut waves, count, |k| k, &media);
         }
+        let paths = &waves.waves[0].paths;
+        let order = [2, 5, 1, 10].into_iter().flat_map(|count| 0..count);
+        for (i, k) in order.enumerate() {
+            let found = paths.media(i).innermost().map(|medium| medium.part);
+            assert_eq!(found, [None, None, Some(3), None, Some(3)][k % 5]);
+            assert_eq!(paths.weight(i), DVec3::splat(k as f64));
+        }
+        assert_eq!(paths.len(), 18);
     }
 }

@@ -15,15 +15,15 @@ use super::census::sum;
 use super::gains::{Gain, Gains};
 use super::light::Lamp;
 use super::lit::{CHUNK, Face, Lit, Shine};
-use super::meeting::{Meeting, Onward};
+use super::onward::Senders;
 use super::palette::{LIGHTING, Lighting, Looks, Palette};
 use super::shadow::settle;
-use super::wave::{Path, Paths, Wave, Waves};
+use super::wave::{Meetings, Paths, Wave, Waves};
 use super::{Census, Features, Surfaces};
 use crate::field::{Level, Task, run_at};
 use crate::num::Columns;
 use crate::scene::{Fog, Scene, Sky};
-use crate::trace::{Outcomes, Rays, Verdict, Visibility};
+use crate::trace::{Outcomes, Rays, Verdict, Visibility, count};
 use glam::DVec3;
 use std::cell::Cell;
 use std::mem;
@@ -45,7 +45,7 @@ pub struct Whitted<'a, S: Surfaces + ?Sized> {
 }
 
 /// What the eye receives along its rays.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Received {
     /// The radiance along each ray, linear RGB, by channel.
     pub radiance: Columns<3>,
@@ -54,12 +54,14 @@ pub struct Received {
 }
 
 impl Received {
-    /// Nothing yet, along that many rays.
-    fn nothing(rays: usize) -> Self {
-        Self {
-            radiance: Columns::zeros(rays),
-            unknown: vec![false; rays],
+    /// Forgets all of it, for that many rays.
+    fn reset(&mut self, rays: usize) {
+        self.radiance.resize(rays);
+        for channel in self.radiance.columns_mut() {
+            channel.fill(0.0);
         }
+        self.unknown.clear();
+        self.unknown.resize(rays, false);
     }
 
     /// Adds light to these samples, one after the other.
@@ -80,7 +82,7 @@ impl Received {
 
     /// Marks the samples of the rays without an answer.
     fn mark(&mut self, samples: &[u32], verdicts: &[Verdict]) {
-        if verdicts.contains(&Verdict::Unknown) {
+        if count(verdicts, Verdict::Unknown) > 0 {
             for (sample, verdict) in samples.iter().zip(verdicts) {
                 self.unknown[*sample as usize] |= *verdict == Verdict::Unknown;
             }
@@ -96,6 +98,8 @@ struct Memory {
     glow: Columns<3>,
     /// What it gains from each lamp.
     gains: Vec<Gains>,
+    /// The hits that send rays on.
+    senders: Box<Senders>,
     /// What camera rays carry.
     paths: Paths,
     /// What other rays meet.
@@ -107,14 +111,6 @@ struct Studio<'a> {
     light: &'a mut Received,
     memory: &'a mut Memory,
     census: &'a mut Census,
-}
-
-/// Rays of one depth with what they carry and met.
-#[derive(Clone, Copy)]
-struct Meetings<'a> {
-    rays: &'a Rays,
-    paths: &'a Paths,
-    outcomes: &'a Outcomes,
 }
 
 thread_local! {
@@ -191,9 +187,11 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         census.timed(|t| &mut t.primary, || self.nearest(rays, outcomes));
         census.primary += rays.len() as u64;
         census.evaluations += sum(&outcomes.evaluations);
-        census.hits += count(&outcomes.verdict, Verdict::Hit);
-        census.misses += count(&outcomes.verdict, Verdict::Miss);
-        census.unknown += count(&outcomes.verdict, Verdict::Unknown);
+        let [hits, unknown] = [Verdict::Hit, Verdict::Unknown]
+            .map(|verdict| count(&outcomes.verdict, verdict) as u64);
+        census.hits += hits;
+        census.unknown += unknown;
+        census.misses += rays.len() as u64 - hits - unknown;
     }
 
     /// The colours of the materials that the camera rays hit, without any light, and of the sky, by channel.
@@ -213,12 +211,26 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
 
     /// The light along camera rays that hit `outcomes`.
     pub fn light(&self, rays: &Rays, outcomes: &Outcomes, census: &mut Census) -> Received {
-        let mut light = Received::nothing(rays.len());
+        let mut light = Received::default();
+        self.light_into(rays, outcomes, census, &mut light);
+        light
+    }
+
+    /// As [`Whitted::light`]; what was in `light` before is forgotten.
+    pub fn light_into(
+        &self,
+        rays: &Rays,
+        outcomes: &Outcomes,
+        census: &mut Census,
+        light: &mut Received,
+    ) {
+        light.reset(rays.len());
         let mut memory = MEMORY.with(Cell::take).unwrap_or_else(|| Memory {
             lit: Lit::new(),
             looks: Looks::default(),
             glow: Columns::default(),
             gains: Vec::new(),
+            senders: Senders::new(),
             paths: Paths::default(),
             outcomes: Outcomes::default(),
         });
@@ -228,7 +240,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         );
         first.start(rays.len());
         let mut studio = Studio {
-            light: &mut light,
+            light,
             memory: &mut memory,
             census,
         };
@@ -240,13 +252,12 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                 || self.nearest(&wave.rays, &mut found),
             );
             census.evaluations += sum(&found.evaluations);
-            census.unknown_secondary += count(&found.verdict, Verdict::Unknown);
+            census.unknown_secondary += count(&found.verdict, Verdict::Unknown) as u64;
             let Wave { depth, rays, paths } = &mut wave;
             waiting.extend(self.shade(*depth, rays, paths, &found, &mut studio));
         }
         (memory.paths, memory.outcomes) = (first, found);
         MEMORY.with(|cell| cell.set(Some(memory)));
-        light
     }
 
     /// Adds what the rays of a depth receive to the light, and gives the waves that follow from them.
@@ -287,14 +298,13 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             return Vec::new();
         }
         let mut next = [(); 2].map(|()| Waves::new(depth + 1));
-        for i in 0..rays.len() {
-            let surface = studio.memory.looks.at(&self.palette, i);
-            if let Some(surface) = surface.filter(|surface| surface.sends_on()) {
-                let (ray, path, outcome) = (rays.at(i), paths.at(i), outcomes.at(i));
-                let hit = Meeting::new(&ray, &path, &outcome, surface);
-                self.send_on(&hit, &mut next, studio.census);
-            }
-        }
+        let Memory { looks, senders, .. } = &mut *studio.memory;
+        senders.send_on(
+            wave,
+            (&self.palette, looks),
+            (&mut next, self.depth),
+            (studio.census, self.level),
+        );
         let [mut waves, refracted] = next.map(|waves| waves.waves);
         waves.extend(refracted);
         waves
@@ -359,6 +369,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                     lamp,
                     rays,
                     outcomes,
+                    has_halfway: self.features.halfway,
                 };
                 run_at(self.level, shine);
                 let radiance = lamp.radiance();
@@ -380,66 +391,4 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             studio.light.add(&gains.samples, gains.radiance.columns());
         }
     }
-
-    /// Adds the reflected and the refracted ray of a hit to the next waves of each kind, unless they are too deep or too
-    /// faint.
-    fn send_on(&self, hit: &Meeting, next: &mut [Waves; 2], census: &mut Census) {
-        let [mirrored, through] = next;
-        let Onward {
-            reflected,
-            refracted,
-        } = hit.onward();
-        if let Some(weight) = self.passing(hit, reflected.share, mirrored, census) {
-            census.reflected += 1;
-            let ray = hit.leaving(hit.normal, reflected.direction);
-            mirrored.push(
-                &ray,
-                Path {
-                    weight,
-                    ..hit.path.clone()
-                },
-            );
-        }
-        let Some((branch, crossing)) = refracted else {
-            return;
-        };
-        if let Some(weight) = self.passing(hit, branch.share, through, census) {
-            census.refracted += 1;
-            let ray = hit.leaving(-hit.normal, branch.direction);
-            let path = Path {
-                weight,
-                sample: hit.path.sample,
-                media: crossing.beyond,
-            };
-            through.push(&ray, path);
-        }
-    }
-
-    /// The weight of a ray with this share of a hit's; `None` if it is zero, too faint or too deep.
-    fn passing(
-        &self,
-        hit: &Meeting,
-        share: f64,
-        next: &Waves,
-        census: &mut Census,
-    ) -> Option<DVec3> {
-        if share == 0.0 {
-            return None;
-        }
-        let weight = hit.path.weight * share;
-        if weight.max_element() < FAINTEST {
-            census.too_faint += 1;
-            return None;
-        }
-        if next.depth > self.depth {
-            census.too_deep += 1;
-            return None;
-        }
-        Some(weight)
-    }
-}
-
-/// How many verdicts are that one.
-fn count(verdicts: &[Verdict], verdict: Verdict) -> u64 {
-    verdicts.iter().filter(|other| **other == verdict).count() as u64
 }

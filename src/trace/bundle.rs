@@ -12,6 +12,7 @@ use crate::catalogue::Bounds;
 use crate::field::{Level, Task, run_at};
 use crate::num::F64x32;
 use glam::DVec3;
+use std::mem;
 
 /// How many rays a bundle holds: a block of 16 x 16 pixels.
 pub(super) const CAPACITY: usize = 256;
@@ -62,6 +63,8 @@ pub(super) struct Bundle {
     meets: [u8; CAPACITY],
     /// Whether the reciprocals of the directions are there.
     is_inverted: bool,
+    /// Whether gradients, doubts and counts are not those of rays that have found nothing.
+    is_marked: bool,
     /// The parts in closed form that rays were content with for a while, each once.
     pub winners: Vec<u32>,
 }
@@ -92,6 +95,7 @@ impl Bundle {
             leave: column,
             meets: [0; CAPACITY],
             is_inverted: false,
+            is_marked: true,
             winners: Vec::new(),
         })
     }
@@ -120,13 +124,17 @@ impl Bundle {
         // They take part in nothing.
         self.limit[self.count..n].fill(-1.0);
         self.t[..n].fill(f64::INFINITY);
-        self.error[..n].fill(0.0);
-        self.unknown[..n].fill(f64::INFINITY);
-        self.steps[..n].fill(0);
-        self.evaluations[..n].fill(0);
-        for axis in &mut self.gradient {
-            axis[..n].fill(0.0);
+        if mem::take(&mut self.is_marked) {
+            self.unknown.fill(f64::INFINITY);
+            self.steps.fill(0);
+            self.evaluations.fill(0);
+            self.gradient.iter_mut().for_each(|axis| axis.fill(0.0));
         }
+    }
+
+    /// Says that what only marched rays and normals write is going to be written.
+    pub fn mark(&mut self) {
+        self.is_marked = true;
     }
 
     /// How many lanes are in use: the rays, rounded up to whole packets.
@@ -194,6 +202,7 @@ impl Bundle {
 
     /// Finds the normals of the hits on part `number`, which has this form.
     pub fn turn<F: ClosedForm>(&mut self, form: &F, number: u32, level: Level) {
+        self.mark();
         let bundle = self;
         let task = Normals {
             bundle,
@@ -472,8 +481,9 @@ impl<F: ClosedForm> Enter<'_, F> {
     fn cross(&mut self, first: usize) -> bool {
         let b = &mut *self.bundle;
         let number = u64::from(self.number);
-        let mut taken = 0;
-        for i in first..first + WIDTH {
+        let mut taken = [0u64; WIDTH];
+        for lane in 0..WIDTH {
+            let i = first + lane;
             let (o, d) = (place(&b.origin, i), place(&b.direction, i));
             let (t, error) = self.form.crossing(o, d);
             let (found, best) = (
@@ -484,19 +494,28 @@ impl<F: ClosedForm> Enter<'_, F> {
                 },
             );
             let is_taken = (t <= b.limit[i]) & is_better(found, number, best, b.part[i]);
-            taken += u64::from(is_taken);
+            taken[lane] = u64::from(is_taken);
             b.t[i] = if is_taken { t } else { b.t[i] };
             b.error[i] = if is_taken { error } else { b.error[i] };
             b.part[i] = if is_taken { number } else { b.part[i] };
-            for axis in 0..3 {
-                b.gradient[axis][i] = if is_taken { 0.0 } else { b.gradient[axis][i] };
-            }
             let end = t + error;
             let end = if end < b.t_max[i] { end } else { b.t_max[i] };
             let end = if self.any { -1.0 } else { end };
             b.limit[i] = if is_taken { end } else { b.limit[i] };
         }
-        taken > 0
+        if b.is_marked {
+            for axis in 0..3 {
+                for lane in 0..WIDTH {
+                    let before = b.gradient[axis][first + lane];
+                    b.gradient[axis][first + lane] = if taken[lane] != 0 { 0.0 } else { before };
+                }
+            }
+        }
+        let mut sum = 0;
+        for lane in 0..WIDTH {
+            sum += taken[lane];
+        }
+        sum > 0
     }
 }
 

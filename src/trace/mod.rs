@@ -36,7 +36,7 @@ mod unpruned;
 mod world;
 
 pub use evidence::Witness;
-pub use outcome::{Occlusion, Outcome, Verdict};
+pub use outcome::{Occlusion, Outcome, Verdict, count};
 pub use part::PartKind;
 pub use precision::{Precision, sphere_traced};
 pub use ray::{Footprint, Ray};

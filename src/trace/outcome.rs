@@ -24,6 +24,20 @@ impl Verdict {
     }
 }
 
+/// How many verdicts are that one.
+pub fn count(verdicts: &[Verdict], verdict: Verdict) -> usize {
+    // Bytes are summed many at once, as long as they can't overflow.
+    let sum = |some: &[Verdict]| {
+        some.iter()
+            .map(|other| u8::from(*other == verdict))
+            .sum::<u8>()
+    };
+    verdicts
+        .chunks(128)
+        .map(|some| usize::from(sum(some)))
+        .sum()
+}
+
 /// What a ray finds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {

@@ -208,7 +208,11 @@ impl World {
             PartKind::Marched(marched) => {
                 bundle.clip(&marched.region, self.level);
                 bundle.meeting(&mut scratch.rays);
-                !scratch.rays.is_empty() && self.march(marched, number, beam, any, scratch)
+                if scratch.rays.is_empty() {
+                    return false;
+                }
+                bundle.mark();
+                self.march(marched, number, beam, any, scratch)
             }
         }
     }

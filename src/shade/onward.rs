@@ -1,0 +1,335 @@
+//! The reflected and the refracted rays of hits, side by side.
+
+#![allow(
+    clippy::needless_range_loop,
+    reason = "lanes run through many arrays side by side"
+)]
+
+use super::fresnel::share;
+use super::lit::CHUNK;
+use super::medium::{Crossing, Media, Medium};
+use super::offset;
+use super::palette::{Looks, Palette};
+use super::reflect::{reflected, select};
+use super::refract::{bent, transmitted_cosine};
+use super::wave::{Meetings, Waves};
+use super::{Census, FAINTEST, Surface};
+use crate::field::{Level, Task, run_at};
+use crate::trace::Footprint;
+use glam::DVec3;
+
+type Column = [f64; CHUNK];
+
+/// Up to [`CHUNK`] hits that send rays on, and those rays.
+pub struct Senders {
+    /// Which rays of the wave they are of.
+    numbers: Vec<u32>,
+    /// How the rays arrive: their directions, distances, and the errors of these.
+    incident: [Column; 3],
+    t: Column,
+    error: Column,
+    /// What they weigh.
+    weight: [Column; 3],
+    /// Where they hit, and the outward unit normals there.
+    point: [Column; 3],
+    outward: [Column; 3],
+    /// How wide pixels are where the rays start, then at the hits, and by how much they grow.
+    width: Column,
+    spread: Column,
+    /// The terms of their surfaces.
+    reflect: Column,
+    refract: Column,
+    fresnel: Column,
+    /// The indices of refraction on the ray's side and on the other.
+    indices: [Column; 2],
+    /// What the refracted rays travel in.
+    beyond: Vec<Media>,
+    mirrored: Branches,
+    through: Branches,
+    /// How far they are followed: all the way.
+    end: Column,
+}
+
+/// Rays of one kind.
+struct Branches {
+    start: [Column; 3],
+    direction: [Column; 3],
+    weight: [Column; 3],
+    /// Whether they are sent at all.
+    is_sent: [u8; CHUNK],
+    /// Whether they weigh enough to be followed.
+    is_strong: [u8; CHUNK],
+}
+
+impl Branches {
+    fn new() -> Self {
+        let column = [0.0; CHUNK];
+        Self {
+            start: [column; 3],
+            direction: [column; 3],
+            weight: [column; 3],
+            is_sent: [0; CHUNK],
+            is_strong: [0; CHUNK],
+        }
+    }
+
+    #[inline(always)]
+    fn put(&mut self, i: usize, start: DVec3, direction: DVec3, (weight, share): (DVec3, f64)) {
+        let weight = weight * share;
+        self.is_sent[i] = u8::from(share != 0.0);
+        let y = if weight.y > weight.z {
+            weight.y
+        } else {
+            weight.z
+        };
+        let largest = if weight.x > y { weight.x } else { y };
+        self.is_strong[i] = u8::from(largest >= FAINTEST);
+        for axis in 0..3 {
+            self.start[axis][i] = start[axis];
+            self.direction[axis][i] = direction[axis];
+            self.weight[axis][i] = weight[axis];
+        }
+    }
+}
+
+impl Senders {
+    /// No hits: large, so it lives in a box.
+    pub fn new() -> Box<Self> {
+        let column = [0.0; CHUNK];
+        Box::new(Self {
+            numbers: Vec::with_capacity(CHUNK),
+            incident: [column; 3],
+            t: column,
+            error: column,
+            weight: [column; 3],
+            point: [column; 3],
+            outward: [column; 3],
+            width: column,
+            spread: column,
+            reflect: column,
+            refract: column,
+            fresnel: column,
+            indices: [column; 2],
+            beyond: Vec::with_capacity(CHUNK),
+            mirrored: Branches::new(),
+            through: Branches::new(),
+            end: [f64::INFINITY; CHUNK],
+        })
+    }
+
+    /// Adds the mirrored and the refracted rays of all hits of a wave to the next waves of each kind, unless they are deeper
+    /// than `depth` or too faint.
+    pub fn send_on(
+        &mut self,
+        wave: Meetings,
+        (palette, looks): (&Palette, &Looks),
+        (next, depth): (&mut [Waves; 2], u32),
+        (census, level): (&mut Census, Level),
+    ) {
+        let mut first = 0;
+        while first < wave.rays.len() {
+            first = self.collect(&wave, (palette, looks), first);
+            if self.numbers.is_empty() {
+                return;
+            }
+            self.gather(&wave);
+            run_at(level, Turn(self));
+            let [mirrored, through] = &mut *next;
+            let is_too_deep = mirrored.depth > depth;
+            let next = (mirrored, is_too_deep);
+            census.reflected += self.push(&self.mirrored, wave, next, None, census);
+            let (next, beyond) = ((through, is_too_deep), Some(&self.beyond[..]));
+            census.refracted += self.push(&self.through, wave, next, beyond, census);
+        }
+    }
+
+    /// Takes the hits of a wave that send rays on, from ray number `first` on; gives where to go on.
+    fn collect(
+        &mut self,
+        wave: &Meetings,
+        (palette, looks): (&Palette, &Looks),
+        first: usize,
+    ) -> usize {
+        self.numbers.clear();
+        self.beyond.clear();
+        let mut last = None;
+        let runs = looks.runs(palette);
+        for (range, surface) in runs.filter(|(range, _)| range.end > first) {
+            let Some(surface) = surface.filter(|surface| surface.sends_on()) else {
+                continue;
+            };
+            // Only what lets light through, or reflects by how it would, asks for media.
+            let bends = surface.refract != 0.0 || surface.fresnel != 0.0;
+            for i in range.start.max(first)..range.end {
+                let k = self.numbers.len();
+                if k == CHUNK {
+                    return i;
+                }
+                self.numbers.push(i as u32);
+                self.reflect[k] = surface.reflect;
+                self.refract[k] = surface.refract;
+                self.fresnel[k] = surface.fresnel;
+                let (mut indices, mut beyond) = ([1.0; 2], Media::EMPTY);
+                if bends {
+                    let crossing = crossing(wave, i, surface, &mut last);
+                    (indices, beyond) = ([crossing.n1, crossing.n2], crossing.beyond.clone());
+                }
+                (self.indices[0][k], self.indices[1][k]) = (indices[0], indices[1]);
+                self.beyond.push(beyond);
+            }
+        }
+        wave.rays.len()
+    }
+
+    /// Takes what is known of the rays and their hits.
+    fn gather(&mut self, wave: &Meetings) {
+        let numbers = &self.numbers;
+        let take = |column: &mut Column, source: &[f64]| {
+            for (number, i) in column.iter_mut().zip(numbers) {
+                *number = source[*i as usize];
+            }
+        };
+        let (rays, outcomes) = (wave.rays, wave.outcomes);
+        for (columns, sources) in [
+            (&mut self.incident, rays.direction()),
+            (&mut self.weight, wave.paths.weight.columns()),
+            (&mut self.point, outcomes.point()),
+            (&mut self.outward, outcomes.normal()),
+        ] {
+            for (column, source) in columns.iter_mut().zip(sources) {
+                take(column, source);
+            }
+        }
+        take(&mut self.t, outcomes.t());
+        take(&mut self.error, outcomes.error());
+        let [width, spread] = rays.footprint();
+        take(&mut self.width, width);
+        take(&mut self.spread, spread);
+    }
+
+    /// Adds rays of one kind to their next waves; gives how many. Without `beyond`, they travel in what the hits' rays do.
+    fn push(
+        &self,
+        branches: &Branches,
+        wave: Meetings,
+        (next, is_too_deep): (&mut Waves, bool),
+        beyond: Option<&[Media]>,
+        census: &mut Census,
+    ) -> u64 {
+        let mut chosen: Vec<u32> = Vec::with_capacity(self.numbers.len());
+        for k in 0..self.numbers.len() {
+            if branches.is_sent[k] == 0 {
+                continue;
+            }
+            if branches.is_strong[k] == 0 {
+                census.too_faint += 1;
+            } else if is_too_deep {
+                census.too_deep += 1;
+            } else {
+                chosen.push(k as u32);
+            }
+        }
+        let ([a, b, c], [d, e, f]) = (&branches.start, &branches.direction);
+        let columns = [a, b, c, d, e, f, &self.end, &self.width, &self.spread];
+        let number = |k: u32| self.numbers[k as usize] as usize;
+        next.take(
+            &chosen,
+            (
+                columns.map(|column| &column[..]),
+                branches.weight.each_ref().map(|column| &column[..]),
+            ),
+            |k| wave.paths.sample[number(k)],
+            |k| match beyond {
+                Some(beyond) => &beyond[k as usize],
+                None => wave.paths.media(number(k)),
+            },
+        );
+        chosen.len() as u64
+    }
+}
+
+/// A boundary as a ray met it.
+struct Boundary {
+    /// What the ray was in.
+    media: Media,
+    medium: Medium,
+    is_outside: bool,
+    crossing: Crossing,
+}
+
+/// How ray number `i` of a wave goes through a surface; mostly as the `last` one did.
+fn crossing<'a>(
+    wave: &Meetings,
+    i: usize,
+    surface: &Surface,
+    last: &'a mut Option<Boundary>,
+) -> &'a Crossing {
+    let (direction, normal) = (wave.rays.direction(), wave.outcomes.normal());
+    let [outward, incident] = [normal, direction].map(|c| DVec3::new(c[0][i], c[1][i], c[2][i]));
+    let is_outside = outward.dot(incident) <= 0.0;
+    let medium = Medium::new(wave.outcomes.part[i], surface);
+    let media = wave.paths.media(i);
+    let is_same = last.as_ref().is_some_and(|last| {
+        last.medium == medium && last.is_outside == is_outside && last.media.is_same(media)
+    });
+    if !is_same {
+        *last = None;
+    }
+    let found = || Boundary {
+        media: media.clone(),
+        medium,
+        is_outside,
+        crossing: media.across(medium, is_outside),
+    };
+    &last.get_or_insert_with(found).crossing
+}
+
+/// Finds where the rays go that hits send on, and what they weigh. The refracted share goes to the reflected ray where
+/// reflection is total; Fresnel's equations divide the sum of both shares, of which an opaque surface sends only the
+/// reflected part.
+struct Turn<'a>(&'a mut Senders);
+
+impl Task for Turn<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let s = self.0;
+        for k in 0..s.numbers.len().min(CHUNK) {
+            let (incident, outward) = (place(&s.incident, k), place(&s.outward, k));
+            let (point, weight) = (place(&s.point, k), place(&s.weight, k));
+            let (t, error) = (s.t[k], s.error[k]);
+            let is_outside = outward.dot(incident) <= 0.0;
+            let normal = select(is_outside, outward, -outward);
+            let footprint = Footprint {
+                at_origin: s.width[k],
+                spread: s.spread[k],
+            };
+            s.width[k] = footprint.at(t);
+
+            let (reflect, refract, by_law) = (s.reflect[k], s.refract[k], s.fresnel[k]);
+            let (n1, n2) = (s.indices[0][k], s.indices[1][k]);
+            let cosine = (-incident.dot(normal)).clamp(0.0, 1.0);
+            let transmitted = transmitted_cosine(cosine, n1, n2);
+            let is_total = transmitted.is_nan();
+            let both = reflect + refract;
+            let by_fresnel = share(cosine, transmitted, n1, n2);
+            let mixed = reflect + (both * by_fresnel - reflect) * by_law;
+            let passed = refract + (both * (1.0 - by_fresnel) - refract) * by_law;
+            let is_clear = refract != 0.0;
+            let mirrored = if is_clear & is_total { both } else { mixed };
+            let passed = if is_clear & !is_total { passed } else { 0.0 };
+            let start = offset::start(point, t, error, normal);
+            let direction = reflected(incident, normal);
+            s.mirrored.put(k, start, direction, (weight, mirrored));
+            let start = offset::start(point, t, error, -normal);
+            let direction = bent(incident, normal, (n1, n2), (cosine, transmitted));
+            s.through.put(k, start, direction, (weight, passed));
+        }
+    }
+}
+
+#[inline(always)]
+fn place(columns: &[Column; 3], i: usize) -> DVec3 {
+    DVec3::new(columns[0][i], columns[1][i], columns[2][i])
+}

@@ -5,9 +5,9 @@
     reason = "lanes run through many arrays side by side"
 )]
 
-use super::highlight::{GROUP, Group, highlights};
+use super::highlight::{GROUP, groups, highlights};
 use super::lit::{CHUNK, Lit};
-use super::medium::Media;
+use super::medium::Surroundings;
 use super::palette::{LIGHTING, Lighting};
 use super::phong::reflectance;
 use super::wave::Paths;
@@ -21,8 +21,8 @@ use glam::DVec3;
 pub struct Gains {
     /// The rays from the hits towards the lamp; each ends before it.
     pub rays: Rays,
-    /// The media around their starts, one for each where shadows are tinted, else none.
-    pub media: Vec<Media>,
+    /// The media around their starts, where shadows are tinted.
+    pub media: Surroundings,
     /// Which camera rays gain.
     pub samples: Vec<u32>,
     /// By how much, by channel.
@@ -61,11 +61,16 @@ impl Gains {
             let sample = |hit: &u32| paths.sample[lit.numbers.start + *hit as usize];
             self.samples.extend(hits.iter().map(sample));
         }
-        if with_media {
-            for (number, gains) in lit.numbers.clone().zip(is_gained) {
-                if *gains != 0 {
-                    self.media.push(paths.media(number).clone());
-                }
+        if !with_media {
+            return;
+        }
+        if paths.media.are_empty() && self.media.are_empty() {
+            self.media = Surroundings::empty(self.samples.len());
+            return;
+        }
+        for (number, gains) in lit.numbers.clone().zip(is_gained) {
+            if *gains != 0 {
+                self.media.push(paths.media.at(number));
             }
         }
     }
@@ -90,72 +95,43 @@ impl Task for Gain<'_> {
     fn run(self) {
         let lit = self.lit;
         let some = lit.numbers.clone();
-        let n = some.len().min(CHUNK);
-        let terms = self
-            .terms
-            .columns()
-            .map(|column| &column[some.clone()][..n]);
+        let terms = self.terms.columns().map(|column| &column[some.clone()]);
         let terms = Lighting::of(terms);
-        let weight = self
-            .weight
-            .columns()
-            .map(|column| &column[some.clone()][..n]);
-        for first in (0..n).step_by(GROUP) {
-            shine(lit, &terms, first.min(CHUNK - GROUP));
-        }
-        let Lighting {
-            color,
-            diffuse,
-            specular,
-            ..
-        } = terms;
-        for i in 0..n {
-            let (strength, light) = (lit.strength[i], lit.light[i]);
-            let (mut is_seen, mut is_sent) = (false, false);
-            for k in 0..3 {
-                let seen = reflectance(
-                    color[k][i],
-                    diffuse[i],
-                    light,
-                    specular[i] * lit.highlight[i],
-                );
-                let sent = self.radiance[k] * strength;
-                is_seen |= seen != 0.0;
-                is_sent |= sent != 0.0;
-                lit.gained[k][i] = weight[k][i] * seen * sent;
-            }
-            lit.is_gained[i] = u8::from((strength != 0.0) & (light > 0.0) & is_seen & is_sent);
+        let weight = self.weight.columns().map(|column| &column[some.clone()]);
+        for first in (0..some.len()).step_by(GROUP) {
+            let first = first.min(CHUNK - GROUP);
+            gain(lit, self.radiance, &terms, weight, first);
         }
     }
 }
 
-/// Finds the highlights of a group of hits, from number `first` on.
+/// Finds what a group of hits gains, from number `first` on.
 #[inline(always)]
-fn shine(lit: &mut Lit, terms: &Lighting, first: usize) {
-    let group = |column: &[f64]| {
-        let mut group: Group = [0.0; GROUP];
-        let column = &column[first..];
-        let count = column.len().min(GROUP);
-        group[..count].copy_from_slice(&column[..count]);
-        group
-    };
-    let specular = group(terms.specular);
-    let (mirror, halfway) = (
-        &lit.mirror[first..][..GROUP],
-        &lit.halfway[first..][..GROUP],
-    );
-    let light = &lit.light[first..][..GROUP];
-    let (mut phong, mut blinn): (Group, Group) = ([0.0; GROUP], [0.0; GROUP]);
+fn gain(lit: &mut Lit, radiance: DVec3, terms: &Lighting, weight: [&[f64]; 3], first: usize) {
+    let weight = groups(weight, first);
+    let color = groups(terms.color, first);
+    let shares = [terms.diffuse, terms.specular, terms.shininess, terms.blinn];
+    let [diffuse, specular, shininess, blinn] = &groups(shares, first);
+    let (mut phong, mut half) = ([0.0; GROUP], [0.0; GROUP]);
     for i in 0..GROUP {
         // What sends no highlight has a cosine without one.
-        let is_lit = (specular[i] != 0.0) & (light[i] > 0.0);
-        phong[i] = if is_lit { mirror[i] } else { 0.0 };
-        blinn[i] = if is_lit { halfway[i] } else { 0.0 };
+        let is_lit = (specular[i] != 0.0) & (lit.light[first + i] > 0.0);
+        phong[i] = if is_lit { lit.mirror[first + i] } else { 0.0 };
+        half[i] = if is_lit { lit.halfway[first + i] } else { 0.0 };
     }
-    let found = highlights(
-        [&phong, &blinn],
-        &group(terms.shininess),
-        &group(terms.blinn),
-    );
-    lit.highlight[first..][..GROUP].copy_from_slice(&found);
+    let highlight = highlights([&phong, &half], shininess, blinn);
+    for i in 0..GROUP {
+        let (strength, light) = (lit.strength[first + i], lit.light[first + i]);
+        let shine = specular[i] * highlight[i];
+        let (mut is_seen, mut is_sent) = (false, false);
+        for k in 0..3 {
+            let seen = reflectance(color[k][i], diffuse[i], light, shine);
+            let sent = radiance[k] * strength;
+            is_seen |= seen != 0.0;
+            is_sent |= sent != 0.0;
+            lit.gained[k][first + i] = weight[k][i] * seen * sent;
+        }
+        let gains = (strength != 0.0) & (light > 0.0) & is_seen & is_sent;
+        lit.is_gained[first + i] = u64::from(gains);
+    }
 }

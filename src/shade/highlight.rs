@@ -13,6 +13,21 @@ pub const GROUP: usize = F64x32::WIDTH;
 /// A number for each of them.
 pub type Group = [f64; GROUP];
 
+/// The numbers of columns from number `first` on, zeros beyond their ends: lanes that read copies know that nothing else writes
+/// them.
+#[inline(always)]
+pub fn groups<const N: usize>(columns: [&[f64]; N], first: usize) -> [Group; N] {
+    let mut groups = [[0.0; GROUP]; N];
+    for k in 0..N {
+        let column = &columns[k][first.min(columns[k].len())..];
+        match column.first_chunk() {
+            Some(whole) => groups[k] = *whole,
+            None => groups[k][..column.len()].copy_from_slice(column),
+        }
+    }
+    groups
+}
+
 /// Highlights below `exp` of this are 0: 2^-53, what rounding would take from a full one anyway.
 const FAINTEST_LOG: f64 = -36.7;
 

@@ -1,5 +1,11 @@
 //! Light as it arrives at a point.
 
+#![allow(
+    clippy::needless_range_loop,
+    reason = "lanes run through many arrays side by side"
+)]
+
+use super::highlight::{GROUP, Group};
 use crate::scene::{Falloff, Light, Source};
 use glam::DVec3;
 
@@ -11,14 +17,14 @@ pub struct Lamp {
     edge: [f64; 2],
 }
 
-/// The light that arrives at a point, if nothing is in the way.
+/// The light that arrives at some points, if nothing is in the way.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Arrival {
-    /// The unit vector towards the light.
-    pub toward: DVec3,
-    /// The share of the lamp's radiance, which may be more than 1: 0 where it is black, and at the very place of the light,
+pub struct Arrivals {
+    /// The unit vectors towards the light, by axis.
+    pub toward: [Group; 3],
+    /// The shares of the lamp's radiance, which may be more than 1: 0 where it is black, and at the very place of the light,
     /// where it has no direction.
-    pub strength: f64,
+    pub strength: Group,
 }
 
 impl Lamp {
@@ -44,31 +50,29 @@ impl Lamp {
         }
     }
 
-    /// What arrives at some points, by axis, is told to `sink`, number by number. To be called with the instructions of lanes.
+    /// What arrives at some points, by axis. To be called with the instructions of lanes.
     #[inline(always)]
-    pub fn shine(&self, points: [&[f64]; 3], mut sink: impl FnMut(usize, Arrival)) {
-        let [x, y, z] = points;
-        let points = x.iter().zip(y).zip(z).enumerate();
-        let points = points.map(|(i, ((x, y), z))| (i, DVec3::new(*x, *y, *z)));
+    pub fn shine(&self, points: &[Group; 3]) -> Arrivals {
         // A loop for each kind: within it, all points are alike.
         match self.light.source {
-            Source::Directional { toward } => {
-                let strength = 1.0;
-                points.for_each(|(i, _)| sink(i, Arrival { toward, strength }));
-            }
-            Source::Point { position, falloff } => {
-                points.for_each(|(i, p)| sink(i, arrival(position, falloff, p)));
-            }
+            Source::Directional { toward } => Arrivals {
+                toward: toward.to_array().map(|part| [part; GROUP]),
+                strength: [1.0; GROUP],
+            },
+            Source::Point { position, falloff } => arrivals(position, falloff, points),
             Source::Spot {
                 position,
                 axis,
                 falloff,
                 ..
-            } => points.for_each(|(i, p)| {
-                let Arrival { toward, strength } = arrival(position, falloff, p);
-                let strength = strength * self.share(-toward.dot(axis));
-                sink(i, Arrival { toward, strength });
-            }),
+            } => {
+                let mut all = arrivals(position, falloff, points);
+                for i in 0..GROUP {
+                    let [x, y, z] = [0, 1, 2].map(|axis: usize| all.toward[axis][i]);
+                    all.strength[i] *= self.share(-DVec3::new(x, y, z).dot(axis));
+                }
+                all
+            }
         }
     }
 
@@ -84,21 +88,28 @@ impl Lamp {
     }
 }
 
-/// What arrives at `point` from `position`.
+/// What arrives at points from `position`.
 #[inline(always)]
-fn arrival(position: DVec3, falloff: Falloff, point: DVec3) -> Arrival {
-    let way = position - point;
-    let distance = way.length();
-    let inverse = 1.0 / distance;
-    let strength = match falloff {
-        Falloff::None => 1.0,
-        Falloff::InverseSquare => inverse * inverse,
+fn arrivals(position: DVec3, falloff: Falloff, points: &[Group; 3]) -> Arrivals {
+    let mut all = Arrivals {
+        toward: [[0.0; GROUP]; 3],
+        strength: [1.0; GROUP],
     };
-    let arrives = (distance > 0.0) & (strength < f64::INFINITY);
-    Arrival {
-        toward: way * inverse,
-        strength: if arrives { strength } else { 0.0 },
+    for i in 0..GROUP {
+        let way = position - DVec3::new(points[0][i], points[1][i], points[2][i]);
+        let distance = way.length();
+        let inverse = 1.0 / distance;
+        for axis in 0..3 {
+            all.toward[axis][i] = way[axis] * inverse;
+        }
+        let strength = match falloff {
+            Falloff::None => 1.0,
+            Falloff::InverseSquare => inverse * inverse,
+        };
+        let arrives = (distance > 0.0) & (strength <= f64::MAX);
+        all.strength[i] = if arrives { strength } else { 0.0 };
     }
+    all
 }
 
 #[cfg(test)]
@@ -130,10 +141,8 @@ mod tests {
 
     /// What arrives at a point; `None` where nothing does.
     fn at(lamp: &Lamp, point: DVec3) -> Option<DVec3> {
-        let mut radiance = DVec3::ZERO;
-        lamp.shine([&[point.x], &[point.y], &[point.z]], |_, arrival| {
-            radiance = lamp.radiance() * arrival.strength;
-        });
+        let arrivals = lamp.shine(&point.to_array().map(|part| [part; GROUP]));
+        let radiance = lamp.radiance() * arrivals.strength[0];
         (radiance != DVec3::ZERO).then_some(radiance)
     }
 

@@ -1,8 +1,10 @@
 //! Hits in the light of lamps, side by side.
 
-use super::light::Lamp;
+use super::highlight::{GROUP, Group, groups};
+use super::light::{Arrivals, Lamp};
 use super::offset;
 use super::phong::Cosines;
+use super::reflect::select;
 use crate::field::Task;
 use crate::trace::{Footprint, Outcomes, Rays};
 use glam::DVec3;
@@ -28,12 +30,10 @@ pub struct Lit {
     pub light: Column,
     pub mirror: Column,
     pub halfway: Column,
-    /// The highlights, in [0, 1].
-    pub highlight: Column,
     /// What the hits gain from the lamp, by channel, if nothing is in the way.
     pub gained: [Column; 3],
-    /// Whether that is anything.
-    pub is_gained: [u8; CHUNK],
+    /// Whether that is anything: 0 or 1, as wide as the other lanes.
+    pub is_gained: [u64; CHUNK],
     /// The way from the starts to the lamp: its unit vector, and where it ends.
     way: [Column; 3],
     end: Column,
@@ -54,7 +54,6 @@ impl Lit {
             light: column,
             mirror: column,
             halfway: column,
-            highlight: column,
             gained: [column; 3],
             is_gained: [0; CHUNK],
             way: [column; 3],
@@ -83,41 +82,42 @@ pub struct Face<'a> {
     pub numbers: Range<usize>,
 }
 
-impl Task for Face<'_> {
+impl<'a> Task for Face<'a> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        let (lit, some) = (self.lit, &self.numbers);
-        let n = some.len().min(CHUNK);
-        let direction = places(self.rays.direction(), some);
-        let (normal, point) = (
-            places(self.outcomes.normal(), some),
-            places(self.outcomes.point(), some),
-        );
-        let (t, error) = (
-            &self.outcomes.t()[some.clone()],
-            &self.outcomes.error()[some.clone()],
-        );
-        let [at_origin, spread] = self.rays.footprint();
-        let (at_origin, spread) = (&at_origin[some.clone()], &spread[some.clone()]);
-        for i in 0..n {
-            let outward = place(normal, i);
-            let is_outside = outward.dot(place(direction, i)) <= 0.0;
-            let facing = if is_outside { outward } else { -outward };
-            let start = offset::start(place(point, i), t[i], error[i], facing);
-            for axis in 0..3 {
-                lit.normal[axis][i] = facing[axis];
-                lit.start[axis][i] = start[axis];
+        let (lit, some) = (self.lit, self.numbers);
+        let slice = |column: &'a [f64]| &column[some.clone()];
+        let (rays, outcomes) = (self.rays, self.outcomes);
+        let direction = rays.direction().map(slice);
+        let (normal, point) = (outcomes.normal().map(slice), outcomes.point().map(slice));
+        let (t, error) = (slice(outcomes.t()), slice(outcomes.error()));
+        let footprint = rays.footprint().map(slice);
+        for first in (0..some.len()).step_by(GROUP) {
+            let first = first.min(CHUNK - GROUP);
+            let (direction, normal) = (groups(direction, first), groups(normal, first));
+            let point = groups(point, first);
+            let [t, error] = &groups([t, error], first);
+            let [at_origin, spread] = &groups(footprint, first);
+            for i in 0..GROUP {
+                let outward = place(&normal, i);
+                let is_outside = outward.dot(place(&direction, i)) <= 0.0;
+                let facing = select(is_outside, outward, -outward);
+                let start = offset::start(place(&point, i), t[i], error[i], facing);
+                for axis in 0..3 {
+                    lit.normal[axis][first + i] = facing[axis];
+                    lit.start[axis][first + i] = start[axis];
+                }
+                let footprint = Footprint {
+                    at_origin: at_origin[i],
+                    spread: spread[i],
+                };
+                lit.width[first + i] = footprint.at(t[i]);
+                lit.spread[first + i] = footprint.spread;
             }
-            let footprint = Footprint {
-                at_origin: at_origin[i],
-                spread: spread[i],
-            };
-            lit.width[i] = footprint.at(t[i]);
-            lit.spread[i] = footprint.spread;
         }
-        lit.numbers = self.numbers;
+        lit.numbers = some;
     }
 }
 
@@ -135,59 +135,67 @@ pub struct Shine<'a> {
     pub has_halfway: bool,
 }
 
-impl Task for Shine<'_> {
+impl<'a> Task for Shine<'a> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        let lit = self.lit;
-        let some = lit.numbers.clone();
-        let n = some.len().min(CHUNK);
-        let view = places(self.rays.direction(), &some);
-        self.lamp
-            .shine(places(self.outcomes.point(), &some), |i, arrival| {
-                let i = i.min(CHUNK - 1);
-                lit.strength[i] = arrival.strength;
-                for axis in 0..3 {
-                    lit.way[axis][i] = arrival.toward[axis];
+        let some = self.lit.numbers.clone();
+        let slice = |column: &'a [f64]| &column[some.clone()];
+        let point = self.outcomes.point().map(slice);
+        let direction = self.rays.direction().map(slice);
+        for first in (0..some.len()).step_by(GROUP) {
+            let first = first.min(CHUNK - GROUP);
+            let (point, direction) = (groups(point, first), groups(direction, first));
+            let arrivals = self.lamp.shine(&point);
+            shine(self.lit, &arrivals, &direction, first);
+            if self.has_halfway {
+                for i in 0..GROUP {
+                    let normal = placed(&self.lit.normal, first + i);
+                    let (toward, view) = (place(&arrivals.toward, i), -place(&direction, i));
+                    self.lit.halfway[first + i] = Cosines::halfway(normal, toward, view);
                 }
-            });
-        for i in 0..n {
-            let (normal, toward) = (placed(&lit.normal, i), placed(&lit.way, i));
-            let cosines = Cosines::of_mirror(normal, toward, -place(view, i));
-            lit.light[i] = cosines.light;
-            lit.mirror[i] = cosines.mirror;
-            lit.halfway[i] = cosines.halfway;
-            lit.end[i] = f64::INFINITY;
-        }
-        if self.has_halfway {
-            for i in 0..n {
-                let (normal, toward) = (placed(&lit.normal, i), placed(&lit.way, i));
-                lit.halfway[i] = Cosines::halfway(normal, toward, -place(view, i));
             }
-        }
-        if let Some(position) = self.lamp.position() {
-            for i in 0..n {
-                let way = position - placed(&lit.start, i);
-                let distance = way.length();
-                let direction = way * (1.0 / distance);
-                for axis in 0..3 {
-                    lit.way[axis][i] = direction[axis];
-                }
-                lit.end[i] = offset::before(distance);
+            if let Some(position) = self.lamp.position() {
+                aim(self.lit, position, first);
             }
         }
     }
 }
 
+/// Finds how a group of hits stands to a lamp, from number `first` on.
 #[inline(always)]
-fn places<'a>(columns: [&'a [f64]; 3], some: &Range<usize>) -> [&'a [f64]; 3] {
-    let [x, y, z] = columns;
-    [&x[some.clone()], &y[some.clone()], &z[some.clone()]]
+fn shine(lit: &mut Lit, arrivals: &Arrivals, direction: &[Group; 3], first: usize) {
+    for i in 0..GROUP {
+        let (normal, toward) = (placed(&lit.normal, first + i), place(&arrivals.toward, i));
+        let cosines = Cosines::of_mirror(normal, toward, -place(direction, i));
+        lit.light[first + i] = cosines.light;
+        lit.mirror[first + i] = cosines.mirror;
+        lit.halfway[first + i] = cosines.halfway;
+        lit.strength[first + i] = arrivals.strength[i];
+        lit.end[first + i] = f64::INFINITY;
+        for axis in 0..3 {
+            lit.way[axis][first + i] = toward[axis];
+        }
+    }
+}
+
+/// Finds the ways from the starts of a group's shadow rays, from number `first` on, to a lamp.
+#[inline(always)]
+fn aim(lit: &mut Lit, lamp: DVec3, first: usize) {
+    for i in first..first + GROUP {
+        let way = lamp - placed(&lit.start, i);
+        let distance = way.length();
+        let direction = way * (1.0 / distance);
+        for axis in 0..3 {
+            lit.way[axis][i] = direction[axis];
+        }
+        lit.end[i] = offset::before(distance);
+    }
 }
 
 #[inline(always)]
-fn place(columns: [&[f64]; 3], i: usize) -> DVec3 {
+fn place(columns: &[Group; 3], i: usize) -> DVec3 {
     DVec3::new(columns[0][i], columns[1][i], columns[2][i])
 }
 

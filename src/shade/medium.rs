@@ -144,6 +144,48 @@ impl Media {
     }
 }
 
+/// The media around rays, side by side; none are stored as long as all rays are in empty space.
+#[derive(Clone, Debug, Default)]
+pub struct Surroundings {
+    some: Vec<Media>,
+    count: usize,
+}
+
+impl Surroundings {
+    /// That many rays in empty space.
+    pub fn empty(count: usize) -> Self {
+        Self {
+            some: Vec::new(),
+            count,
+        }
+    }
+
+    /// Forgets all of them.
+    pub fn clear(&mut self) {
+        self.some.clear();
+        self.count = 0;
+    }
+
+    /// Whether all rays are in empty space.
+    pub fn are_empty(&self) -> bool {
+        self.some.is_empty()
+    }
+
+    /// The media around ray number `i`.
+    pub fn at(&self, i: usize) -> &Media {
+        self.some.get(i).unwrap_or(&Media::EMPTY)
+    }
+
+    /// Adds those of a ray.
+    pub fn push(&mut self, media: &Media) {
+        if !(self.some.is_empty() && media.is_empty()) {
+            self.some.resize(self.count, Media::EMPTY);
+            self.some.push(media.clone());
+        }
+        self.count += 1;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

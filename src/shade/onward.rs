@@ -30,7 +30,7 @@ pub struct Senders {
     error: Column,
     /// What they weigh.
     weight: [Column; 3],
-    /// Where they hit, and the outward unit normals there.
+    /// Where they hit, and the unit normals there: outward, then on the side from which the ray came.
     point: [Column; 3],
     outward: [Column; 3],
     /// How wide pixels are where the rays start, then at the hits, and by how much they grow.
@@ -55,10 +55,10 @@ struct Branches {
     start: [Column; 3],
     direction: [Column; 3],
     weight: [Column; 3],
-    /// Whether they are sent at all.
-    is_sent: [u8; CHUNK],
+    /// Whether they are sent at all: 0 or 1, as wide as the other lanes.
+    is_sent: [u64; CHUNK],
     /// Whether they weigh enough to be followed.
-    is_strong: [u8; CHUNK],
+    is_strong: [u64; CHUNK],
 }
 
 impl Branches {
@@ -76,14 +76,14 @@ impl Branches {
     #[inline(always)]
     fn put(&mut self, i: usize, start: DVec3, direction: DVec3, (weight, share): (DVec3, f64)) {
         let weight = weight * share;
-        self.is_sent[i] = u8::from(share != 0.0);
+        self.is_sent[i] = u64::from(share != 0.0);
         let y = if weight.y > weight.z {
             weight.y
         } else {
             weight.z
         };
         let largest = if weight.x > y { weight.x } else { y };
-        self.is_strong[i] = u8::from(largest >= FAINTEST);
+        self.is_strong[i] = u64::from(largest >= FAINTEST);
         for axis in 0..3 {
             self.start[axis][i] = start[axis];
             self.direction[axis][i] = direction[axis];
@@ -241,7 +241,7 @@ impl Senders {
             |k| wave.paths.sample[number(k)],
             |k| match beyond {
                 Some(beyond) => &beyond[k as usize],
-                None => wave.paths.media(number(k)),
+                None => wave.paths.media.at(number(k)),
             },
         );
         chosen.len() as u64
@@ -268,7 +268,7 @@ fn crossing<'a>(
     let [outward, incident] = [normal, direction].map(|c| DVec3::new(c[0][i], c[1][i], c[2][i]));
     let is_outside = outward.dot(incident) <= 0.0;
     let medium = Medium::new(wave.outcomes.part[i], surface);
-    let media = wave.paths.media(i);
+    let media = wave.paths.media.at(i);
     let is_same = last.as_ref().is_some_and(|last| {
         last.medium == medium && last.is_outside == is_outside && last.media.is_same(media)
     });
@@ -295,37 +295,70 @@ impl Task for Turn<'_> {
     #[inline(always)]
     fn run(self) {
         let s = self.0;
-        for k in 0..s.numbers.len().min(CHUNK) {
-            let (incident, outward) = (place(&s.incident, k), place(&s.outward, k));
-            let (point, weight) = (place(&s.point, k), place(&s.weight, k));
-            let (t, error) = (s.t[k], s.error[k]);
-            let is_outside = outward.dot(incident) <= 0.0;
-            let normal = select(is_outside, outward, -outward);
-            let footprint = Footprint {
-                at_origin: s.width[k],
-                spread: s.spread[k],
-            };
-            s.width[k] = footprint.at(t);
-
-            let (reflect, refract, by_law) = (s.reflect[k], s.refract[k], s.fresnel[k]);
-            let (n1, n2) = (s.indices[0][k], s.indices[1][k]);
-            let cosine = (-incident.dot(normal)).clamp(0.0, 1.0);
-            let transmitted = transmitted_cosine(cosine, n1, n2);
-            let is_total = transmitted.is_nan();
-            let both = reflect + refract;
-            let by_fresnel = share(cosine, transmitted, n1, n2);
-            let mixed = reflect + (both * by_fresnel - reflect) * by_law;
-            let passed = refract + (both * (1.0 - by_fresnel) - refract) * by_law;
-            let is_clear = refract != 0.0;
-            let mirrored = if is_clear & is_total { both } else { mixed };
-            let passed = if is_clear & !is_total { passed } else { 0.0 };
-            let start = offset::start(point, t, error, normal);
-            let direction = reflected(incident, normal);
-            s.mirrored.put(k, start, direction, (weight, mirrored));
-            let start = offset::start(point, t, error, -normal);
-            let direction = bent(incident, normal, (n1, n2), (cosine, transmitted));
-            s.through.put(k, start, direction, (weight, passed));
+        let count = s.numbers.len();
+        for first in (0..count).step_by(GROUP) {
+            let first = first.min(CHUNK - GROUP);
+            mirror(s, first);
+            let mut is_bent = false;
+            for k in first..first + GROUP {
+                is_bent |= (s.refract[k] != 0.0) | (s.fresnel[k] != 0.0);
+            }
+            if is_bent {
+                bend(s, first);
+            }
         }
+    }
+}
+
+/// How many rays turn at once.
+const GROUP: usize = 32;
+
+/// Mirrors the rays of a group from number `first` on, and lets none through.
+#[inline(always)]
+fn mirror(s: &mut Senders, first: usize) {
+    for k in first..first + GROUP {
+        let (incident, outward) = (place(&s.incident, k), place(&s.outward, k));
+        let is_outside = outward.dot(incident) <= 0.0;
+        let normal = select(is_outside, outward, -outward);
+        // From here on they are the normals on the ray's side.
+        for axis in 0..3 {
+            s.outward[axis][k] = normal[axis];
+        }
+        let footprint = Footprint {
+            at_origin: s.width[k],
+            spread: s.spread[k],
+        };
+        s.width[k] = footprint.at(s.t[k]);
+        let start = offset::start(place(&s.point, k), s.t[k], s.error[k], normal);
+        let share = (place(&s.weight, k), s.reflect[k]);
+        s.mirrored.put(k, start, reflected(incident, normal), share);
+        s.through.is_sent[k] = 0;
+    }
+}
+
+/// Divides the rays of a group from number `first` on into those that are mirrored and those that go through.
+#[inline(always)]
+fn bend(s: &mut Senders, first: usize) {
+    for k in first..first + GROUP {
+        let (incident, normal) = (place(&s.incident, k), place(&s.outward, k));
+        let (point, weight) = (place(&s.point, k), place(&s.weight, k));
+        let (reflect, refract, by_law) = (s.reflect[k], s.refract[k], s.fresnel[k]);
+        let (n1, n2) = (s.indices[0][k], s.indices[1][k]);
+        let cosine = (-incident.dot(normal)).clamp(0.0, 1.0);
+        let transmitted = transmitted_cosine(cosine, n1, n2);
+        let is_total = transmitted.is_nan();
+        let both = reflect + refract;
+        let by_fresnel = share(cosine, transmitted, n1, n2);
+        let mixed = reflect + (both * by_fresnel - reflect) * by_law;
+        let passed = refract + (both * (1.0 - by_fresnel) - refract) * by_law;
+        let is_clear = refract != 0.0;
+        let mirrored = if is_clear & is_total { both } else { mixed };
+        let passed = if is_clear & !is_total { passed } else { 0.0 };
+        let (start, direction) = (place(&s.mirrored.start, k), place(&s.mirrored.direction, k));
+        s.mirrored.put(k, start, direction, (weight, mirrored));
+        let start = offset::start(point, s.t[k], s.error[k], -normal);
+        let direction = bent(incident, normal, (n1, n2), (cosine, transmitted));
+        s.through.put(k, start, direction, (weight, passed));
     }
 }
 

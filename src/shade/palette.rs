@@ -66,6 +66,29 @@ fn row(s: &Surface) -> [f64; LIGHTING] {
     ]
 }
 
+/// The exponent's place in a [`row`].
+const SHININESS: usize = 6;
+
+/// For each pattern of a material, in the order in which a surface asks for them, the first number of a [`row`] that it is;
+/// none if lighting does not read it.
+fn columns_of_patterns(m: &Material) -> Vec<Option<usize>> {
+    let is_pattern = |term: &Term<f64>| matches!(term, Term::Pattern(_));
+    let is_colors = |term: &Term<DVec3>| matches!(term, Term::Pattern(_));
+    let terms = [
+        (is_pattern(&m.refract), None),
+        (is_pattern(&m.ior), None),
+        (is_colors(&m.color), Some(0)),
+        (is_pattern(&m.ambient), Some(3)),
+        (is_pattern(&m.diffuse), Some(4)),
+        (is_pattern(&m.specular), Some(5)),
+        (is_pattern(&m.shininess), Some(SHININESS)),
+        (is_pattern(&m.reflect), None),
+        (is_colors(&m.absorb), None),
+    ];
+    let patterns = terms.into_iter().filter(|(is_pattern, _)| *is_pattern);
+    patterns.map(|(_, column)| column).collect()
+}
+
 /// Where there is no surface, the colour is that of the sky, and all of it is seen.
 const BACKDROP: [f64; LIGHTING] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
 
@@ -77,8 +100,8 @@ struct Swatch {
     /// The terms that differ from point to point, in the order in which a surface asks for them; none where it is the same
     /// everywhere.
     patterns: Vec<Pattern>,
-    /// Whether the colour is the only such term.
-    is_tinted: bool,
+    /// Whether lighting reads all such terms, and nothing else does.
+    is_only_lit: bool,
 }
 
 /// A term that differs from point to point.
@@ -86,6 +109,8 @@ struct Pattern {
     walk: Walked<F64x32>,
     /// 3 for a colour, else 1.
     outputs: usize,
+    /// The first number of a [`row`] that it is, if lighting reads it.
+    column: Option<usize>,
 }
 
 /// The materials of a scene.
@@ -116,16 +141,19 @@ impl Palette {
         let swatch = |material: &Arc<Material>| {
             let mut graphs = Graphs(Vec::new());
             let surface = Surface::of_terms(material, &mut graphs);
-            let pattern = |graph: Arc<Graph>| Pattern {
+            let pattern = |(column, graph): (Option<usize>, Arc<Graph>)| Pattern {
                 walk: compile_graph(&graph, level),
                 outputs: if graph.outputs() == 3 { 3 } else { 1 },
+                column,
             };
-            let has_color = matches!(material.color, Term::Pattern(_));
+            let columns = columns_of_patterns(material);
+            let patterns = columns.into_iter().zip(graphs.0).map(pattern);
+            let patterns: Vec<Pattern> = patterns.collect();
             Swatch {
                 material: material.clone(),
                 surface,
-                is_tinted: has_color && graphs.0.len() == 1,
-                patterns: graphs.0.into_iter().map(pattern).collect(),
+                is_only_lit: patterns.iter().all(|pattern| pattern.column.is_some()),
+                patterns,
             }
         };
         Self {
@@ -205,7 +233,7 @@ impl Palette {
 }
 
 impl Looks {
-    /// The surface that ray number `i` hit. Its colour is that of [`Looks::terms`].
+    /// The surface that ray number `i` hit; but what lighting reads of it is in [`Looks::terms`].
     pub fn at<'a>(&'a self, palette: &'a Palette, i: usize) -> Option<&'a Surface> {
         let number = self.numbers[i] as usize;
         match palette.swatches.get(number) {
@@ -296,12 +324,17 @@ impl Looks {
             }
             value
         };
-        if swatch.is_tinted {
-            let color = value(&swatch.patterns[0]);
-            let columns = self.terms.columns_mut();
-            for (column, channel) in columns.into_iter().zip(color) {
-                for (lane, (_, ray)) in rays.iter().enumerate() {
-                    column[*ray as usize] = channel.0[lane];
+        if swatch.is_only_lit {
+            for pattern in &swatch.patterns {
+                let (value, first) = (value(pattern), pattern.column.unwrap_or(0));
+                let count = if first == 0 { 3 } else { 1 };
+                let columns = self.terms.columns_mut().into_iter().skip(first);
+                for (column, number) in columns.zip(&value[..count]) {
+                    for (lane, (_, ray)) in rays.iter().enumerate() {
+                        let number = number.0[lane];
+                        let is_exponent = first == SHININESS;
+                        column[*ray as usize] = if is_exponent { number.max(0.0) } else { number };
+                    }
                 }
             }
             return;
@@ -461,6 +494,8 @@ mod tests {
             }),
             Arc::new(Material {
                 color: Term::Pattern(pattern(5, 3)),
+                ambient: number(11),
+                shininess: number(12),
                 ..Material::default()
             }),
             Arc::new(Material {
@@ -492,9 +527,12 @@ mod tests {
                 let is_hit = outcome.verdict == Verdict::Hit;
                 let terms = if is_hit { row(&expected) } else { BACKDROP };
                 assert_eq!(looks.terms().row(i), terms);
-                let color = DVec3::from_slice(&terms[..3]);
-                let found = looks.at(&palette, i);
-                let found = found.map(|surface| Surface { color, ..*surface });
+                let found = looks.at(&palette, i).map(|surface| Surface {
+                    color: expected.color,
+                    ambient: expected.ambient,
+                    shininess: expected.shininess,
+                    ..*surface
+                });
                 assert_eq!(found, is_hit.then_some(expected));
             }
         }

@@ -35,7 +35,7 @@ impl Cosines {
         let sum = toward + view;
         let scale = 1.0 / sum.length();
         // Light opposite to the viewer has nothing half way.
-        let is_halfway = (scale > 0.0) & (scale < f64::INFINITY);
+        let is_halfway = (scale > 0.0) & (scale <= f64::MAX);
         let halfway = normal.dot(sum * scale);
         if is_halfway { halfway } else { 0.0 }
     }

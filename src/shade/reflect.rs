@@ -16,7 +16,7 @@ pub fn reflected(incident: DVec3, normal: DVec3) -> DVec3 {
 #[inline(always)]
 pub(super) fn unit_or(v: DVec3, other: DVec3) -> DVec3 {
     let scale = 1.0 / v.length();
-    let is_scale = (scale > 0.0) & (scale < f64::INFINITY);
+    let is_scale = (scale > 0.0) & (scale <= f64::MAX);
     select(is_scale, v * scale, other)
 }
 

@@ -7,9 +7,9 @@
 use super::attenuation::absorbed;
 use super::census::sum;
 use super::gains::Gains;
-use super::medium::{Media, Medium};
+use super::medium::{Medium, Surroundings};
 use super::palette::{Looks, Palette};
-use super::{Census, Features, Surfaces, offset};
+use super::{Census, Features, Surface, Surfaces, offset};
 use crate::trace::{Outcome, Outcomes, Ray, Rays, Verdict, Visibility, count};
 use glam::DVec3;
 
@@ -100,7 +100,7 @@ fn walk_all<S: Surfaces + ?Sized>(
 #[derive(Default)]
 struct Walkers {
     rays: Rays,
-    media: Vec<Media>,
+    media: Surroundings,
     /// Which shadow ray each of them is.
     indices: Vec<usize>,
 }
@@ -145,40 +145,68 @@ fn step<S: Surfaces + ?Sized>(
         |t| &mut t.shadow,
         || surfaces.nearest(&walkers.rays, Visibility::Casting, &mut outcomes),
     );
+    census.evaluations += sum(&outcomes.evaluations);
+    census.unknown_secondary += count(&outcomes.verdict, Verdict::Unknown) as u64;
     let mut looks = Looks::default();
     palette.look(surfaces, &outcomes, &mut looks);
     let mut further = Walkers::default();
-    for (i, hit) in outcomes.iter().enumerate() {
-        let (ray, media, index) = (&walkers.rays.at(i), &walkers.media[i], walkers.indices[i]);
-        census.evaluations += u64::from(hit.evaluations);
-        let passage = &mut passages[index];
-        let is_hit = hit.verdict == Verdict::Hit;
-        let distance = if is_hit { hit.t } else { ray.t_max };
-        passage.share *= absorbed(media.absorb(), distance);
-        if hit.verdict == Verdict::Unknown {
-            passage.unknown = true;
-            census.unknown_secondary += 1;
-        }
-        if !is_hit {
-            continue;
-        }
-        let Some(surface) = looks.at(palette, i) else {
-            continue;
-        };
-        passage.share *= surface.passes;
-        if passage.share == DVec3::ZERO {
-            continue;
-        }
-        let next = straight_on(ray, &hit);
-        if next.t_max > 0.0 {
-            let medium = Medium::new(hit.part, surface);
-            let is_entering = hit.normal.dot(ray.direction) <= 0.0;
-            further.rays.push(&next);
-            further.media.push(media.across(medium, is_entering).beyond);
-            further.indices.push(index);
+    for (range, surface) in looks.runs(palette) {
+        match surface {
+            Some(surface) if surface.passes == 0.0 => {
+                for i in range {
+                    passages[walkers.indices[i]].share = DVec3::ZERO;
+                }
+            }
+            Some(surface) => {
+                for i in range {
+                    pass(
+                        walkers,
+                        i,
+                        (surface, &outcomes.at(i)),
+                        (passages, &mut further),
+                    );
+                }
+            }
+            None => {
+                for i in range {
+                    let passage = &mut passages[walkers.indices[i]];
+                    passage.unknown |= outcomes.verdict[i] == Verdict::Unknown;
+                    let media = walkers.media.at(i);
+                    if !media.is_empty() {
+                        let end = outcomes.t()[i].min(walkers.rays.at(i).t_max);
+                        passage.share *= absorbed(media.absorb(), end);
+                    }
+                }
+            }
         }
     }
     further
+}
+
+/// Takes walker number `i` through a surface that it hit, if anything is left of the light behind it.
+fn pass(
+    walkers: &Walkers,
+    i: usize,
+    (surface, hit): (&Surface, &Outcome),
+    (passages, further): (&mut [Passage], &mut Walkers),
+) {
+    let (ray, media, index) = (&walkers.rays.at(i), walkers.media.at(i), walkers.indices[i]);
+    let passage = &mut passages[index];
+    passage.share *= absorbed(media.absorb(), hit.t);
+    passage.share *= surface.passes;
+    if passage.share == DVec3::ZERO {
+        return;
+    }
+    let next = straight_on(ray, hit);
+    if next.t_max > 0.0 {
+        let medium = Medium::new(hit.part, surface);
+        let is_entering = hit.normal.dot(ray.direction) <= 0.0;
+        further.rays.push(&next);
+        further
+            .media
+            .push(&media.across(medium, is_entering).beyond);
+        further.indices.push(index);
+    }
 }
 
 /// The rest of a ray behind what it hit.

@@ -1,6 +1,6 @@
 //! Waves: all rays of one depth, in the order of their samples.
 
-use super::medium::Media;
+use super::medium::{Media, Surroundings};
 use crate::num::Columns;
 use crate::trace::{Outcomes, Rays};
 use glam::DVec3;
@@ -18,8 +18,8 @@ pub struct Paths {
     pub weight: Columns<3>,
     /// Which camera rays they belong to.
     pub sample: Vec<u32>,
-    /// What they travel in; none where all of them are in empty space.
-    media: Vec<Media>,
+    /// What they travel in.
+    pub media: Surroundings,
 }
 
 /// Rays of one depth, and what each of them carries.
@@ -42,7 +42,7 @@ impl Paths {
         }
         self.sample.clear();
         self.sample.extend(0..rays as u32);
-        self.media.clear();
+        self.media = Surroundings::empty(rays);
     }
 
     /// None yet, with room for as many.
@@ -50,7 +50,7 @@ impl Paths {
         Self {
             weight: Columns::with_capacity(count),
             sample: Vec::with_capacity(count),
-            media: Vec::new(),
+            media: Surroundings::default(),
         }
     }
 
@@ -62,19 +62,6 @@ impl Paths {
     /// The weight of ray number `i`.
     pub fn weight(&self, i: usize) -> DVec3 {
         DVec3::from_array(self.weight.row(i))
-    }
-
-    /// What ray number `i` travels in.
-    pub fn media(&self, i: usize) -> &Media {
-        self.media.get(i).unwrap_or(&Media::EMPTY)
-    }
-
-    /// Adds what a ray travels in, once its sample is there.
-    fn enter(&mut self, media: &Media) {
-        if !(self.media.is_empty() && media.is_empty()) {
-            self.media.resize(self.len() - 1, Media::EMPTY);
-            self.media.push(media.clone());
-        }
     }
 }
 
@@ -142,7 +129,7 @@ impl Waves {
                 wave.paths.weight.pick(weight, some);
                 for k in some {
                     wave.paths.sample.push(sample(*k));
-                    wave.paths.enter(media(*k));
+                    wave.paths.media.push(media(*k));
                 }
             }
             left = rest;
@@ -202,7 +189,7 @@ mod tests {
         let paths = &waves.waves[0].paths;
         let order = [2, 5, 1, 10].into_iter().flat_map(|count| 0..count);
         for (i, k) in order.enumerate() {
-            let found = paths.media(i).innermost().map(|medium| medium.part);
+            let found = paths.media.at(i).innermost().map(|medium| medium.part);
             assert_eq!(found, [None, None, Some(3), None, Some(3)][k % 5]);
             assert_eq!(paths.weight(i), DVec3::splat(k as f64));
         }

@@ -323,7 +323,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             };
             let mut weight = paths.weight(i);
             if self.features.absorbs {
-                weight *= absorbed(paths.media(i).absorb(), distance);
+                weight *= absorbed(paths.media.at(i).absorb(), distance);
             }
             let (passed, added) = self
                 .fog

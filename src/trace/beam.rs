@@ -6,7 +6,7 @@
 )]
 
 use super::Rays;
-use super::bundle::{Bundle, WIDTH, across, larger, lesser, place};
+use super::bundle::{Bundle, CAPACITY, fold, larger, lesser, place};
 use super::hierarchy::{BRANCHES, Boxes, Eight};
 use crate::field::{Level, Task, run_at};
 use glam::DVec3;
@@ -39,15 +39,9 @@ impl Task for Ranges<'_> {
         let mut ranges = [[DVec3::ZERO; 2]; 2];
         for (range, columns) in ranges.iter_mut().zip([&b.origin, &b.direction]) {
             for axis in 0..3 {
-                let (mut low, mut high) = ([f64::INFINITY; WIDTH], [f64::NEG_INFINITY; WIDTH]);
-                for some in columns[axis][..b.lanes()].chunks_exact(WIDTH) {
-                    for lane in 0..WIDTH {
-                        low[lane] = lesser(some[lane], low[lane]);
-                        high[lane] = larger(some[lane], high[lane]);
-                    }
-                }
-                range[0][axis] = across(low, lesser);
-                range[1][axis] = across(high, larger);
+                let column = &columns[axis][..b.lanes()];
+                range[0][axis] = fold(column, f64::INFINITY, lesser);
+                range[1][axis] = fold(column, f64::NEG_INFINITY, larger);
             }
         }
         ranges
@@ -115,16 +109,15 @@ impl Task for Distances<'_> {
     #[inline(always)]
     fn run(self) -> [f64; 2] {
         let b = self.bundle;
-        let mut most = [[0.0f64; WIDTH]; 2];
-        for first in (0..b.lanes()).step_by(WIDTH) {
-            for (k, columns) in [&b.origin, &b.direction].into_iter().enumerate() {
-                for lane in 0..WIDTH {
-                    let square = place(columns, first + lane).distance_squared(self.from[k]);
-                    most[k][lane] = larger(square, most[k][lane]);
-                }
+        let mut squares = [0.0; CAPACITY];
+        let mut most = [0.0; 2];
+        for (k, columns) in [&b.origin, &b.direction].into_iter().enumerate() {
+            for i in 0..b.lanes() {
+                squares[i] = place(columns, i).distance_squared(self.from[k]);
             }
+            most[k] = fold(&squares[..b.lanes()], 0.0, larger);
         }
-        [across(most[0], larger), across(most[1], larger)]
+        most
     }
 }
 

@@ -261,13 +261,7 @@ impl Task for Farthest<'_> {
 
     #[inline(always)]
     fn run(self) -> f64 {
-        let mut most = [-1.0f64; WIDTH];
-        for limits in self.0.limit[..self.0.lanes()].chunks_exact(WIDTH) {
-            for lane in 0..WIDTH {
-                most[lane] = larger(limits[lane], most[lane]);
-            }
-        }
-        across(most, larger)
+        fold(&self.0.limit[..self.0.lanes()], -1.0, larger)
     }
 }
 
@@ -283,10 +277,19 @@ pub(super) fn lesser(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
-/// What `join` makes of all lanes, half of them with the other half.
+/// What `join` makes of `first` and some numbers, of which there are a multiple of [`WIDTH`], in any order. For one `join` at a
+/// time: the lanes then stay in registers.
 #[inline(always)]
-pub(super) fn across(mut lanes: [f64; WIDTH], join: impl Fn(f64, f64) -> f64) -> f64 {
-    let mut half = WIDTH / 2;
+pub(super) fn fold(numbers: &[f64], first: f64, join: impl Fn(f64, f64) -> f64) -> f64 {
+    /// Two registers of the widest instructions.
+    const LANES: usize = 16;
+    let mut lanes = [first; LANES];
+    for some in numbers.as_chunks::<LANES>().0 {
+        for lane in 0..LANES {
+            lanes[lane] = join(some[lane], lanes[lane]);
+        }
+    }
+    let mut half = LANES / 2;
     while half > 0 {
         for lane in 0..half {
             lanes[lane] = join(lanes[lane], lanes[lane + half]);
@@ -343,7 +346,7 @@ fn normalise(b: &mut Bundle, first: usize) {
     for i in first..first + WIDTH {
         let [x, y, z] = [b.gradient[0][i], b.gradient[1][i], b.gradient[2][i]];
         let scale = 1.0 / (x * x + y * y + z * z).sqrt();
-        let is_scale = (b.meets[i] != 0) & (scale > 0.0) & (scale < f64::INFINITY);
+        let is_scale = (b.meets[i] != 0) & (scale > 0.0) & (scale <= f64::MAX);
         let mut is_open = b.meets[i] != 0;
         for axis in 0..3 {
             let unit = b.gradient[axis][i] * scale;

@@ -10,12 +10,13 @@ use super::lit::CHUNK;
 use super::medium::{Crossing, Media, Medium};
 use super::offset;
 use super::palette::{Looks, Palette};
-use super::reflect::{reflected, select};
+use super::reflect::reflected;
 use super::refract::{bent, transmitted_cosine};
 use super::wave::{Meetings, Waves};
 use super::{Census, FAINTEST, Surface};
 use crate::field::{Level, Task, run_at};
 use crate::trace::Footprint;
+use crate::trace::analytic::select;
 use glam::DVec3;
 
 type Column = [f64; CHUNK];

@@ -1,5 +1,6 @@
 //! The mirrored direction.
 
+use crate::trace::analytic::{select, unit_or};
 use glam::DVec3;
 
 /// `R = I - 2 N (I.N)` for unit vectors, with `normal` against `incident`; never below the surface, whatever the
@@ -10,24 +11,6 @@ pub fn reflected(incident: DVec3, normal: DVec3) -> DVec3 {
     let above = mirrored.dot(normal);
     let level = unit_or(mirrored - normal * above, normal);
     select(above >= 0.0, mirrored, level)
-}
-
-/// The direction of `v`, or `other` where it has none. Without branches, to serve in lanes.
-#[inline(always)]
-pub(super) fn unit_or(v: DVec3, other: DVec3) -> DVec3 {
-    let scale = 1.0 / v.length();
-    let is_scale = (scale > 0.0) & (scale <= f64::MAX);
-    select(is_scale, v * scale, other)
-}
-
-/// `a` where that holds, else `b`. Without branches, to serve in lanes.
-#[inline(always)]
-pub(super) fn select(holds: bool, a: DVec3, b: DVec3) -> DVec3 {
-    DVec3::new(
-        if holds { a.x } else { b.x },
-        if holds { a.y } else { b.y },
-        if holds { a.z } else { b.z },
-    )
 }
 
 #[cfg(test)]

@@ -102,7 +102,14 @@ struct Walkers {
     rays: Rays,
     media: Surroundings,
     /// Which shadow ray each of them is.
-    indices: Vec<usize>,
+    indices: Vec<u32>,
+}
+
+/// What shadow rays meet at a boundary; memory that is used again for the next.
+#[derive(Default)]
+struct Boundaries {
+    outcomes: Outcomes,
+    looks: Looks,
 }
 
 /// Follows the rays through tinted surfaces, all of them one boundary at a time.
@@ -112,20 +119,23 @@ fn walk<S: Surfaces + ?Sized>(
     passages: &mut [Passage],
     census: &mut Census,
 ) {
-    let mut walkers = Walkers {
-        rays: gains.rays.clone(),
-        media: gains.media.clone(),
-        indices: (0..gains.rays.len()).collect(),
-    };
-    for _ in 0..MAX_CROSSINGS {
+    if gains.rays.is_empty() {
+        return;
+    }
+    let mut met = Boundaries::default();
+    let indices: Vec<u32> = (0..gains.rays.len() as u32).collect();
+    let all = (&gains.rays, &gains.media, &indices[..]);
+    let mut walkers = step(seen, all, &mut met, passages, census);
+    for _ in 1..MAX_CROSSINGS {
         if walkers.rays.is_empty() {
             return;
         }
-        walkers = step(seen, &walkers, passages, census);
+        let all = (&walkers.rays, &walkers.media, &walkers.indices[..]);
+        walkers = step(seen, all, &mut met, passages, census);
     }
     for index in walkers.indices {
         census.unknown_secondary += 1;
-        passages[index] = Passage {
+        passages[index as usize] = Passage {
             share: DVec3::ZERO,
             unknown: true,
         };
@@ -135,45 +145,42 @@ fn walk<S: Surfaces + ?Sized>(
 /// Takes every walker to its next boundary; those that arrive at the light or are blocked fall out.
 fn step<S: Surfaces + ?Sized>(
     (surfaces, palette): (&S, &Palette),
-    walkers: &Walkers,
+    walkers: (&Rays, &Surroundings, &[u32]),
+    met: &mut Boundaries,
     passages: &mut [Passage],
     census: &mut Census,
 ) -> Walkers {
-    census.shadow += walkers.rays.len() as u64;
-    let mut outcomes = Outcomes::default();
+    let (rays, media, indices) = walkers;
+    let Boundaries { outcomes, looks } = met;
+    census.shadow += rays.len() as u64;
     census.timed(
         |t| &mut t.shadow,
-        || surfaces.nearest(&walkers.rays, Visibility::Casting, &mut outcomes),
+        || surfaces.nearest(rays, Visibility::Casting, outcomes),
     );
     census.evaluations += sum(&outcomes.evaluations);
     census.unknown_secondary += count(&outcomes.verdict, Verdict::Unknown) as u64;
-    let mut looks = Looks::default();
-    palette.look(surfaces, &outcomes, &mut looks);
+    palette.look(surfaces, outcomes, looks);
     let mut further = Walkers::default();
     for (range, surface) in looks.runs(palette) {
         match surface {
             Some(surface) if surface.passes == 0.0 => {
                 for i in range {
-                    passages[walkers.indices[i]].share = DVec3::ZERO;
+                    passages[indices[i] as usize].share = DVec3::ZERO;
                 }
             }
             Some(surface) => {
                 for i in range {
-                    pass(
-                        walkers,
-                        i,
-                        (surface, &outcomes.at(i)),
-                        (passages, &mut further),
-                    );
+                    let hit = &outcomes.at(i);
+                    pass(walkers, i, (surface, hit), (passages, &mut further));
                 }
             }
             None => {
                 for i in range {
-                    let passage = &mut passages[walkers.indices[i]];
+                    let passage = &mut passages[indices[i] as usize];
                     passage.unknown |= outcomes.verdict[i] == Verdict::Unknown;
-                    let media = walkers.media.at(i);
+                    let media = media.at(i);
                     if !media.is_empty() {
-                        let end = outcomes.t()[i].min(walkers.rays.at(i).t_max);
+                        let end = outcomes.t()[i].min(rays.at(i).t_max);
                         passage.share *= absorbed(media.absorb(), end);
                     }
                 }
@@ -185,13 +192,13 @@ fn step<S: Surfaces + ?Sized>(
 
 /// Takes walker number `i` through a surface that it hit, if anything is left of the light behind it.
 fn pass(
-    walkers: &Walkers,
+    (rays, media, indices): (&Rays, &Surroundings, &[u32]),
     i: usize,
     (surface, hit): (&Surface, &Outcome),
     (passages, further): (&mut [Passage], &mut Walkers),
 ) {
-    let (ray, media, index) = (&walkers.rays.at(i), walkers.media.at(i), walkers.indices[i]);
-    let passage = &mut passages[index];
+    let (ray, media, index) = (&rays.at(i), media.at(i), indices[i]);
+    let passage = &mut passages[index as usize];
     passage.share *= absorbed(media.absorb(), hit.t);
     passage.share *= surface.passes;
     if passage.share == DVec3::ZERO {

@@ -1,6 +1,8 @@
 //! Convex solids whose stretch on a ray is known in closed form.
 
-use super::analytic::{Ball, ClosedForm, HalfSpace, U, chord_ends, chord_error, face};
+use super::analytic::{
+    Ball, ClosedForm, HalfSpace, U, chord_ends, chord_error, face, select, unit_or,
+};
 use crate::catalogue::{AnyPrimitive, Similarity};
 use glam::DVec3;
 
@@ -74,7 +76,7 @@ pub(super) trait Solid {
     /// The stretch of a line in it. Without branches, to serve in lanes.
     fn chord(&self, origin: DVec3, direction: DVec3) -> Chord;
 
-    /// The outward unit normal at a point of its surface.
+    /// The outward unit normal at a point of its surface. Without branches, to serve in lanes.
     fn normal(&self, p: DVec3) -> DVec3;
 }
 
@@ -93,6 +95,7 @@ impl Solid for Ball {
         Chord::between(enter, leave, [error; 2], is_close)
     }
 
+    #[inline(always)]
     fn normal(&self, p: DVec3) -> DVec3 {
         ClosedForm::normal(self, p)
     }
@@ -106,6 +109,7 @@ impl Solid for HalfSpace {
         slab_end(height, self.normal.dot(direction), 8.0 * U * size)
     }
 
+    #[inline(always)]
     fn normal(&self, _: DVec3) -> DVec3 {
         self.normal
     }
@@ -166,6 +170,7 @@ impl Frame {
         DVec3::new(x.dot(v), y.dot(v), z.dot(v))
     }
 
+    #[inline(always)]
     fn outside(&self, v: DVec3) -> DVec3 {
         let [x, y, z] = self.axes;
         x * v.x + y * v.y + z * v.z
@@ -198,6 +203,7 @@ impl Solid for Brick {
         chord.and(slab(o.z, d.z, self.half.z, noise))
     }
 
+    #[inline(always)]
     fn normal(&self, p: DVec3) -> DVec3 {
         self.frame.outside(face(self.frame.place(p), self.half))
     }
@@ -283,14 +289,13 @@ impl Solid for Bar {
         }
     }
 
+    #[inline(always)]
     fn normal(&self, p: DVec3) -> DVec3 {
         let q = self.frame.place(p);
         let round = DVec3::new(q.x, 0.0, q.z);
-        let normal = if q.y.abs() - self.half > round.length() - self.radius {
-            DVec3::new(0.0, q.y.signum(), 0.0)
-        } else {
-            round.normalize_or_zero()
-        };
+        let is_end = q.y.abs() - self.half > round.length() - self.radius;
+        let end = DVec3::new(0.0, q.y.signum(), 0.0);
+        let normal = select(is_end, end, unit_or(round, DVec3::ZERO));
         self.frame.outside(normal)
     }
 }
@@ -336,11 +341,6 @@ impl Convex {
             _ => return None,
         };
         Some(solid)
-    }
-
-    /// The outward unit normal at a point of the surface.
-    pub fn normal(&self, p: DVec3) -> DVec3 {
-        with_solid!(self, solid => Solid::normal(solid, p))
     }
 }
 
@@ -435,7 +435,7 @@ mod tests {
                 let gradient = DVec3::new(rate(DVec3::X), rate(DVec3::Y), rate(DVec3::Z));
                 // Near an edge differences see both faces.
                 if (gradient.length() - 1.0).abs() < 1e-9 {
-                    let normal = solid.normal(p);
+                    let normal = with_solid!(&solid, solid => Solid::normal(solid, p));
                     assert!(
                         normal.abs_diff_eq(gradient, 1e-5),
                         "seed {seed}: {normal}, {gradient}"

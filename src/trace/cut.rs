@@ -13,7 +13,7 @@
 )]
 
 use super::beam::Beam;
-use super::bundle::{Bundle, WIDTH, place};
+use super::bundle::{Bundle, WIDTH};
 use super::chord::{Chord, Convex, Solid, with_solid};
 use super::hierarchy::{BRANCHES, Boxes};
 use super::packet::Lane;
@@ -61,6 +61,29 @@ struct Chords {
     errors: [Lane; 2],
     /// 1 where the chord is in doubt, else 0.
     doubt: Lane,
+}
+
+/// 32 rays: their origins and directions, by axis.
+type Lines = [Lane; 6];
+
+/// No leaf.
+const NONE: u64 = u64::MAX;
+
+/// What 32 rays meet, in lanes.
+struct Verge {
+    /// Where.
+    t: Lane,
+    /// The leaf whose surface it is; [`NONE`] if there is none.
+    leaf: [u64; WIDTH],
+    /// The error of that surface alone, and the largest of all surfaces there.
+    own: Lane,
+    error: Lane,
+    /// Whether the surface leads into what is combined, as 0 or 1.
+    leads_in: [u64; WIDTH],
+    /// Whether rounding decides what lies there, as 0 or 1: where one surface leads into the combination and another out of
+    /// it, or a chord is in doubt. Surfaces that lead the same way may come in any order.
+    is_open: [u64; WIDTH],
+    normal: [Lane; 3],
 }
 
 /// The hit of a ray.
@@ -150,10 +173,11 @@ impl Cut {
 
     /// As [`Cut::find`], for up to 32 rays.
     fn find_some(&self, bundle: &Bundle, rays: &[u32], level: Level, shop: &mut Workshop) {
+        let lines = &lines(bundle, rays);
         for leaf in &shop.met {
             let chords = &mut shop.chords[*leaf as usize];
             with_solid!(&self.leaves[*leaf as usize].solid, solid => {
-                run_at(level, Cross { bundle, rays, solid, chords });
+                run_at(level, Cross { lines, solid, chords });
             });
         }
         let walk = Walk {
@@ -162,65 +186,201 @@ impl Cut {
             level,
         };
         let zero = [0.0; WIDTH];
-        let (mut into, mut out_of) = (zero, zero);
-        let is_done = walk.go(&self.tree, &mut into, false);
+        let (mut t, mut out_of) = (zero, zero);
+        let is_done = walk.go(&self.tree, &mut t, false);
         // Rays that start inside look for the way out.
-        let starts_inside = (0..rays.len()).any(|lane| into[lane] == 0.0);
+        let starts_inside = t[..rays.len()].contains(&0.0);
         let is_done = is_done && (!starts_inside || walk.go(&self.tree, &mut out_of, true));
-        for (lane, ray) in rays.iter().enumerate() {
-            let is_doubtful = |leaf: &u32| shop.chords[*leaf as usize].doubt[lane] != 0.0;
-            let is_done = is_done && !shop.met.iter().any(is_doubtful);
-            let t = if into[lane] == 0.0 {
+        if !is_done {
+            shop.open.extend(rays);
+            return;
+        }
+        for lane in 0..WIDTH {
+            t[lane] = if t[lane] == 0.0 {
                 out_of[lane]
             } else {
-                into[lane]
+                t[lane]
             };
-            if t == f64::INFINITY && is_done {
+        }
+        let mut verge = Verge::at(t);
+        self.look(shop, &mut verge, lines, level);
+        for (lane, ray) in rays.iter().enumerate() {
+            let is_open = verge.is_open[lane] != 0;
+            if verge.t[lane] == f64::INFINITY && !is_open {
                 continue;
             }
-            match self.surface(t, lane, shop).filter(|_| is_done) {
-                Some((leaf, error)) => {
-                    let i = *ray as usize;
-                    let p = place(&bundle.origin, i) + place(&bundle.direction, i) * t;
-                    let Leaf { solid, sign } = &self.leaves[leaf];
-                    shop.found.push(Found {
-                        ray: *ray,
-                        t,
-                        error,
-                        normal: solid.normal(p) * *sign,
-                    });
-                }
-                None => shop.open.push(*ray),
+            if is_open || verge.leaf[lane] == NONE {
+                shop.open.push(*ray);
+                continue;
             }
+            let [x, y, z] = [0, 1, 2].map(|axis: usize| verge.normal[axis][lane]);
+            shop.found.push(Found {
+                ray: *ray,
+                t: verge.t[lane],
+                error: verge.error[lane],
+                normal: DVec3::new(x, y, z),
+            });
         }
     }
 
-    /// A leaf whose surface a ray meets at `t`, with the error of that. None where rounding decides what lies there: where
-    /// one surface leads into the combination and another out of it. Surfaces that lead the same way may come in any order.
-    fn surface(&self, t: f64, lane: usize, shop: &Workshop) -> Option<(usize, f64)> {
-        // Each surface: its leaf, its place, the error, and whether it leads into what is combined.
-        let surfaces = || {
-            shop.met.iter().flat_map(|leaf| {
-                let leaf = *leaf as usize;
-                let (chords, is_added) = (&shop.chords[leaf], self.leaves[leaf].sign > 0.0);
-                let [enter, leave] = [0, 1].map(|k: usize| chords.errors[k][lane]);
-                [
-                    (leaf, chords.enter[lane], enter, is_added),
-                    (leaf, chords.leave[lane], leave, !is_added),
-                ]
-            })
+    /// Finds what lies at the places that rays came to.
+    fn look(&self, shop: &Workshop, verge: &mut Verge, lines: &Lines, level: Level) {
+        let ends = |leaf: &u32| Ends {
+            leaf: u64::from(*leaf),
+            chords: &shop.chords[*leaf as usize],
+            is_added: self.leaves[*leaf as usize].sign > 0.0,
         };
-        let (leaf, _, own, leads_in) = surfaces().find(|(_, end, ..)| *end == t)?;
-        let mut error = own;
-        for (_, end, other, also_in) in surfaces() {
-            if (end - t).abs() <= 4.0 * (own + other) {
-                if also_in != leads_in {
-                    return None;
-                }
-                error = error.max(other);
+        for leaf in &shop.met {
+            let ends = ends(leaf);
+            run_at(level, Meet { ends, verge });
+        }
+        for leaf in &shop.met {
+            let ends = ends(leaf);
+            run_at(level, Doubt { ends, verge });
+        }
+        for leaf in &shop.met {
+            let number = u64::from(*leaf);
+            if !verge.leaf.contains(&number) {
+                continue;
+            }
+            let Leaf { solid, sign } = &self.leaves[*leaf as usize];
+            let sign = *sign;
+            with_solid!(solid, solid => {
+                run_at(level, Turn { number, solid, sign, lines, verge });
+            });
+        }
+    }
+}
+
+impl Verge {
+    /// These places, with nothing there yet.
+    fn at(t: Lane) -> Self {
+        Self {
+            t,
+            leaf: [NONE; WIDTH],
+            own: [0.0; WIDTH],
+            error: [0.0; WIDTH],
+            leads_in: [0; WIDTH],
+            is_open: [0; WIDTH],
+            normal: [[0.0; WIDTH]; 3],
+        }
+    }
+}
+
+/// The rays of a bundle with these numbers.
+fn lines(bundle: &Bundle, rays: &[u32]) -> Lines {
+    let mut lines = [[0.0; WIDTH]; 6];
+    let columns = bundle.origin.iter().chain(&bundle.direction);
+    for (line, column) in lines.iter_mut().zip(columns) {
+        for lane in 0..WIDTH {
+            // Lanes without a ray repeat the first.
+            let ray = rays[if lane < rays.len() { lane } else { 0 }];
+            line[lane] = column[ray as usize];
+        }
+    }
+    lines
+}
+
+/// The ends of the chords of a leaf, and whether that is added to what is combined, or else taken away.
+struct Ends<'a> {
+    leaf: u64,
+    chords: &'a Chords,
+    is_added: bool,
+}
+
+/// Takes a leaf whose surface lies where rays came to, if they have none yet: where they enter it, or else leave it.
+struct Meet<'a> {
+    ends: Ends<'a>,
+    verge: &'a mut Verge,
+}
+
+impl Task for Meet<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let (chords, v) = (self.ends.chords, self.verge);
+        let [into, out_of] = [self.ends.is_added, !self.ends.is_added].map(u64::from);
+        for lane in 0..WIDTH {
+            let t = v.t[lane];
+            let (enters, leaves) = (chords.enter[lane] == t, chords.leave[lane] == t);
+            let is_first = (v.leaf[lane] == NONE) & (enters | leaves);
+            let [enter, leave] = [chords.errors[0][lane], chords.errors[1][lane]];
+            let error = if enters { enter } else { leave };
+            let leads_in = if enters { into } else { out_of };
+            v.leaf[lane] = if is_first {
+                self.ends.leaf
+            } else {
+                v.leaf[lane]
+            };
+            v.own[lane] = if is_first { error } else { v.own[lane] };
+            v.error[lane] = v.own[lane];
+            v.leads_in[lane] = if is_first { leads_in } else { v.leads_in[lane] };
+        }
+    }
+}
+
+/// Doubts places near which the other end of a chord lies, and takes the largest error of all surfaces there.
+struct Doubt<'a> {
+    ends: Ends<'a>,
+    verge: &'a mut Verge,
+}
+
+impl Task for Doubt<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let (chords, v) = (self.ends.chords, self.verge);
+        let [into, out_of] = [self.ends.is_added, !self.ends.is_added].map(u64::from);
+        for lane in 0..WIDTH {
+            let (t, own) = (v.t[lane], v.own[lane]);
+            let mut is_open = chords.doubt[lane] != 0.0;
+            let mut error = v.error[lane];
+            for (end, other, leads_in) in [
+                (chords.enter[lane], chords.errors[0][lane], into),
+                (chords.leave[lane], chords.errors[1][lane], out_of),
+            ] {
+                let is_close = (end - t).abs() <= 4.0 * (own + other);
+                is_open |= is_close & (leads_in != v.leads_in[lane]);
+                error = if is_close & (other > error) {
+                    other
+                } else {
+                    error
+                };
+            }
+            v.error[lane] = error;
+            v.is_open[lane] |= u64::from(is_open);
+        }
+    }
+}
+
+/// Finds the normals where rays meet a leaf.
+struct Turn<'a, S> {
+    number: u64,
+    solid: &'a S,
+    sign: f64,
+    lines: &'a Lines,
+    verge: &'a mut Verge,
+}
+
+impl<S: Solid> Task for Turn<'_, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let ([a, b, c, d, e, f], v) = (self.lines, self.verge);
+        for lane in 0..WIDTH {
+            let origin = DVec3::new(a[lane], b[lane], c[lane]);
+            let direction = DVec3::new(d[lane], e[lane], f[lane]);
+            let p = origin + direction * v.t[lane];
+            let normal = self.solid.normal(p) * self.sign;
+            let is_here = v.leaf[lane] == self.number;
+            for axis in 0..3 {
+                let before = v.normal[axis][lane];
+                v.normal[axis][lane] = if is_here { normal[axis] } else { before };
             }
         }
-        Some((leaf, error))
     }
 }
 
@@ -282,8 +442,7 @@ fn corners(bounds: Bounds) -> impl Iterator<Item = [f64; 3]> {
 
 /// Finds the chords of a solid on up to 32 rays.
 struct Cross<'a, S> {
-    bundle: &'a Bundle,
-    rays: &'a [u32],
+    lines: &'a Lines,
     solid: &'a S,
     chords: &'a mut Chords,
 }
@@ -293,16 +452,7 @@ impl<S: Solid> Task for Cross<'_, S> {
 
     #[inline(always)]
     fn run(self) {
-        let mut lines = [[0.0; WIDTH]; 6];
-        for lane in 0..WIDTH {
-            // Lanes without a ray repeat the first.
-            let ray = self.rays[if lane < self.rays.len() { lane } else { 0 }] as usize;
-            for axis in 0..3 {
-                lines[axis][lane] = self.bundle.origin[axis][ray];
-                lines[3 + axis][lane] = self.bundle.direction[axis][ray];
-            }
-        }
-        let [a, b, c, d, e, f] = &lines;
+        let [a, b, c, d, e, f] = self.lines;
         for lane in 0..WIDTH {
             let origin = DVec3::new(a[lane], b[lane], c[lane]);
             let direction = DVec3::new(d[lane], e[lane], f[lane]);

@@ -363,6 +363,11 @@ impl Node {
         self.everywhere
     }
 
+    /// Whether [`Node::lipschitz_over`] may differ between regions.
+    pub fn is_regional(&self) -> bool {
+        self.is_regional
+    }
+
     /// The region that [`Node::lipschitz`] holds on: all of space, or the bounds.
     pub fn certified_region(&self) -> Bounds {
         if self.everywhere <= self.lipschitz {

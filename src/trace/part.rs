@@ -48,6 +48,8 @@ impl PartKind {
 pub struct Marched {
     /// Where the constant holds, and outside of which nothing is: rays are clipped to it.
     pub region: Bounds,
+    /// Whether the constant, or that of a leaf, may be larger outside of the region.
+    pub is_regional: bool,
     /// How far from the origin of coordinates anything is known of the solid.
     pub size: f64,
     /// The Lipschitz constant on the region.
@@ -186,6 +188,7 @@ impl Marched {
             thicket: thicket.flatten(),
             cut: is_thinned.then(|| Cut::of(node)).flatten(),
             region,
+            is_regional: node.is_regional(),
             size,
             lipschitz,
             is_sheet: node.traits().is_sheet,

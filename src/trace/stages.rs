@@ -7,7 +7,7 @@
 
 use super::beam::Beam;
 use super::bundle::{Bundle, WIDTH};
-use super::packet::Rules;
+use super::packet::{Lane, Rules};
 use super::part::Marched;
 use crate::field::{Closure, Thicket, Thinned};
 use crate::num::{F64x32, Lanes, Vec3};
@@ -54,40 +54,70 @@ pub(super) fn stages(
     if rays.len() < FEW || !to.is_finite() || to <= from || is_wide {
         return vec![whole()];
     }
-    thinned_stages(thicket, beam, rules, (from, to))
+    let balls = Balls::along(beam, marched, rules, (from, to));
+    thinned_stages(thicket, &balls, rules)
 }
 
-/// The stages from `from` to `to`, by balls along the beam; those that are surely free are left out.
-fn thinned_stages(
-    thicket: &Thicket,
-    beam: &Beam,
-    rules: &Rules,
-    (from, to): (f64, f64),
-) -> Vec<Stage> {
-    let width = (to - from) / WIDTH as f64;
-    let border = |k: usize| from + width * k as f64;
-    let mut centres = [[0.0; WIDTH]; 3];
-    let mut radii = [0.0; WIDTH];
-    // Room for steps that begin in one ball and end in the next, and for the rounding of borders.
-    let room = 1e-9 * (to + rules.reach);
-    for k in 0..WIDTH {
-        let (centre, radius) = beam.ball(border(k), border(k + 1));
-        radii[k] = radius + room;
-        (0..3).for_each(|axis| centres[axis][k] = centre[axis]);
-    }
-    let [x, y, z] = centres.map(Lanes);
-    let values = thicket.values(&Vec3::new(x, y, z));
-    let joined = thicket.joined(&values);
+/// Balls one after the other that hold a beam.
+struct Balls {
+    from: f64,
+    /// How long the stretch is that each of them holds.
+    width: f64,
+    centres: Vec3<F64x32>,
+    radii: Lane,
+    /// How much of a value is noise.
+    noise: f64,
+}
 
-    let noise = 64.0 * f64::EPSILON * (rules.reach + to) * rules.lipschitz;
-    let change = |radius: f64| rules.lipschitz * radius * (1.0 + 1e-9) + noise;
-    let is_open = |k: usize| joined.0[k].abs() <= change(radii[k]);
+impl Balls {
+    /// The balls that hold a beam from `from` to `to`.
+    fn along(beam: &Beam, marched: &Marched, rules: &Rules, (from, to): (f64, f64)) -> Self {
+        let width = (to - from) / WIDTH as f64;
+        let mut centres = [[0.0; WIDTH]; 3];
+        let mut radii = [0.0; WIDTH];
+        // Room for steps that begin in one ball and end in the next, and for the rounding of borders.
+        let room = 1e-9 * (to + rules.reach);
+        for k in 0..WIDTH {
+            let ends = [k, k + 1].map(|k| from + width * k as f64);
+            let (centre, radius) = beam.ball(ends[0], ends[1]);
+            // Where the constant holds only in the region, it says something from places in it alone.
+            let is_told = !marched.is_regional || marched.region.contains(centre.to_array());
+            radii[k] = if is_told { radius + room } else { f64::INFINITY };
+            (0..3).for_each(|axis| centres[axis][k] = centre[axis]);
+        }
+        let [x, y, z] = centres.map(Lanes);
+        Self {
+            from,
+            width,
+            centres: Vec3::new(x, y, z),
+            radii,
+            noise: 64.0 * f64::EPSILON * (rules.reach + to) * rules.lipschitz,
+        }
+    }
+
+    /// Where ball number `k` begins, and the one before it ends.
+    fn border(&self, k: usize) -> f64 {
+        self.from + self.width * k as f64
+    }
+
+    /// Whether a surface may lie in ball number `k`, at whose centre the field has this value.
+    fn is_open(&self, k: usize, value: f64, rules: &Rules) -> bool {
+        let change = rules.lipschitz * self.radii[k] * (1.0 + 1e-9) + self.noise;
+        value.abs() <= change
+    }
+}
+
+/// The stages along a beam, each with what is left of a combination; those that are surely free are left out.
+fn thinned_stages(thicket: &Thicket, balls: &Balls, rules: &Rules) -> Vec<Stage> {
+    let values = thicket.values(&balls.centres);
+    let joined = thicket.joined(&values);
+    let is_open = |k: usize| balls.is_open(k, joined.0[k], rules);
     if !(0..WIDTH).any(is_open) {
         return Vec::new();
     }
-    let sifted = thicket.sifted(&values, &Lanes(radii), noise);
+    let sifted = thicket.sifted(&values, &Lanes(balls.radii), balls.noise);
     let mut stages: Vec<Stage> = Vec::new();
-    let mut free = Some(1.0).filter(|_| from > 0.0);
+    let mut free = Some(1.0).filter(|_| balls.from > 0.0);
     // The ball in which the last stage begins.
     let mut first = 0;
     for k in 0..WIDTH {
@@ -101,14 +131,14 @@ fn thinned_stages(
             && is_next
             && sifted.is_same(first, k)
         {
-            last.to = border(k + 1);
+            last.to = balls.border(k + 1);
             continue;
         }
         let left = thicket.thinned(&sifted, k);
         first = k;
         stages.push(Stage {
-            from: border(k),
-            to: border(k + 1),
+            from: balls.border(k),
+            to: balls.border(k + 1),
             before: free.take(),
             value: thicket.value(&left),
             left: Some(left),

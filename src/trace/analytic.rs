@@ -325,6 +325,7 @@ impl ClosedForm for Facet {
 
     /// Where the ray meets the plane, if that point is on the same side of every edge. The border belongs to the triangle, up
     /// to rounding, so that nothing leaks between neighbours.
+    #[inline(always)]
     fn crossing(&self, origin: DVec3, direction: DVec3) -> (f64, f64) {
         let plane = HalfSpace {
             normal: self.normal,
@@ -333,12 +334,13 @@ impl ClosedForm for Facet {
         let (t, error) = plane.crossing(origin, direction);
         let p = origin + direction * t;
         let [a, b, c] = self.corners;
-        let is_inside = [(a, b), (b, c), (c, a)].iter().all(|(from, to)| {
-            let (edge, arm) = (*to - *from, p - *from);
+        let is_on = |from: DVec3, to: DVec3| {
+            let (edge, arm) = (to - from, p - from);
             let noise =
                 8.0 * U * edge.length() * (arm.length() + p.length()) + error * edge.length();
             edge.cross(arm).dot(self.normal) >= -noise
-        });
+        };
+        let is_inside = is_on(a, b) & is_on(b, c) & is_on(c, a);
         (if is_inside { t } else { f64::INFINITY }, error)
     }
 }

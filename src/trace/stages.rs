@@ -82,7 +82,11 @@ impl Balls {
             let (centre, radius) = beam.ball(ends[0], ends[1]);
             // Where the constant holds only in the region, it says something from places in it alone.
             let is_told = !marched.is_regional || marched.region.contains(centre.to_array());
-            radii[k] = if is_told { radius + room } else { f64::INFINITY };
+            radii[k] = if is_told {
+                radius + room
+            } else {
+                f64::INFINITY
+            };
             (0..3).for_each(|axis| centres[axis][k] = centre[axis]);
         }
         let [x, y, z] = centres.map(Lanes);

@@ -299,15 +299,23 @@ pub struct Facet {
     pub corners: [DVec3; 3],
     /// The unit normal of the front.
     pub normal: DVec3,
+    /// A ball around it.
+    around: Ball,
 }
 
 impl Facet {
     /// The triangle with these corners.
     pub fn new(corners: [DVec3; 3]) -> Self {
         let [a, b, c] = corners;
+        let centre = (a + b + c) / 3.0;
+        let reach = |corner: DVec3| corner.distance(centre);
         Self {
             corners,
             normal: (b - a).cross(c - a).normalize_or_zero(),
+            around: Ball {
+                centre,
+                radius: corners.map(reach).into_iter().fold(0.0, f64::max),
+            },
         }
     }
 
@@ -318,6 +326,11 @@ impl Facet {
 }
 
 impl ClosedForm for Facet {
+    #[inline(always)]
+    fn may_meet(&self, origin: DVec3, direction: DVec3) -> bool {
+        self.around.may_meet(origin, direction)
+    }
+
     #[inline(always)]
     fn normal(&self, _: DVec3) -> DVec3 {
         self.normal
@@ -341,6 +354,8 @@ impl ClosedForm for Facet {
             edge.cross(arm).dot(self.normal) >= -noise
         };
         let is_inside = is_on(a, b) & is_on(b, c) & is_on(c, a);
+        // A ray along the plane is told of no more than the others.
+        let is_inside = is_inside & self.may_meet(origin, direction);
         (if is_inside { t } else { f64::INFINITY }, error)
     }
 }

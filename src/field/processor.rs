@@ -3,6 +3,8 @@
 //! A closure made inside of a `#[target_feature]` function is compiled for those features and stays an ordinary boxed
 //! closure, so the choice costs nothing per call. All levels give the same bits: there is no fused multiply-add.
 
+use std::sync::OnceLock;
+
 /// A level of vector instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
@@ -36,6 +38,11 @@ impl Level {
 
     /// The best level of this processor.
     pub fn supported() -> Self {
+        static FOUND: OnceLock<Level> = OnceLock::new();
+        *FOUND.get_or_init(Self::detected)
+    }
+
+    fn detected() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
             let has_avx512 = is_x86_feature_detected!("avx512f")

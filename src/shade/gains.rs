@@ -6,9 +6,9 @@
 )]
 
 use super::highlight::{GROUP, groups, highlights};
+use super::lighting::{LIGHTING, Lighting};
 use super::lit::{CHUNK, Lit};
 use super::medium::Surroundings;
-use super::palette::{LIGHTING, Lighting};
 use super::phong::reflectance;
 use super::wave::Paths;
 use crate::field::Task;

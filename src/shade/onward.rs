@@ -7,9 +7,10 @@
 
 use super::fresnel::share;
 use super::lit::CHUNK;
+use super::looks::Looks;
 use super::medium::{Crossing, Media, Medium};
 use super::offset;
-use super::palette::{Looks, Palette};
+use super::palette::Palette;
 use super::reflect::reflected;
 use super::refract::{bent, transmitted_cosine};
 use super::wave::{Meetings, Waves};

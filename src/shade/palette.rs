@@ -1,12 +1,14 @@
 //! What the surfaces of a scene look like: materials that are the same at all points are evaluated once, and patterns at many
 //! points at a time.
 
+use super::lighting::{SHININESS, row};
+use super::looks::{Looks, NONE};
 use super::surface::Terms;
-use super::{Surface, Surfaces, sky};
-use crate::field::{Level, Task, Walked, compile_graph, run_at};
-use crate::num::{Columns, F64x32, Lanes, Vec3};
-use crate::scene::{Graph, Material, Sky, Term};
-use crate::trace::{Outcomes, Rays, Verdict};
+use super::{Surface, Surfaces};
+use crate::field::{Level, Walked, compile_graph};
+use crate::num::{F64x32, Lanes, Vec3};
+use crate::scene::{Graph, Material, Term};
+use crate::trace::{Outcomes, Verdict};
 use glam::DVec3;
 use std::mem;
 use std::ops::Range;
@@ -14,60 +16,6 @@ use std::sync::Arc;
 
 /// How many points are evaluated at a time.
 const WIDTH: usize = F64x32::WIDTH;
-
-/// How many numbers of a surface lighting reads.
-pub const LIGHTING: usize = 8;
-
-/// What lighting reads of surfaces, side by side.
-#[derive(Clone, Copy)]
-pub struct Lighting<'a> {
-    /// The colour, by channel.
-    pub color: [&'a [f64]; 3],
-    /// The share of it that is seen without light.
-    pub ambient: &'a [f64],
-    /// The share of it that is seen in light.
-    pub diffuse: &'a [f64],
-    /// The strength of the highlight.
-    pub specular: &'a [f64],
-    /// Its exponent.
-    pub shininess: &'a [f64],
-    /// The share of Blinn's highlight.
-    pub blinn: &'a [f64],
-}
-
-impl<'a> Lighting<'a> {
-    /// These columns, in the order of [`row`].
-    #[inline(always)]
-    pub fn of(columns: [&'a [f64]; LIGHTING]) -> Self {
-        let [r, g, b, ambient, diffuse, specular, shininess, blinn] = columns;
-        Self {
-            color: [r, g, b],
-            ambient,
-            diffuse,
-            specular,
-            shininess,
-            blinn,
-        }
-    }
-}
-
-/// What lighting reads of a surface.
-fn row(s: &Surface) -> [f64; LIGHTING] {
-    let [r, g, b] = s.color.to_array();
-    [
-        r,
-        g,
-        b,
-        s.ambient,
-        s.diffuse,
-        s.specular,
-        s.shininess,
-        s.blinn,
-    ]
-}
-
-/// The exponent's place in a [`row`].
-const SHININESS: usize = 6;
 
 /// For each pattern of a material, in the order in which a surface asks for them, the first number of a [`row`] that it is;
 /// none if lighting does not read it.
@@ -88,9 +36,6 @@ fn columns_of_patterns(m: &Material) -> Vec<Option<usize>> {
     let patterns = terms.into_iter().filter(|(is_pattern, _)| *is_pattern);
     patterns.map(|(_, column)| column).collect()
 }
-
-/// Where there is no surface, the colour is that of the sky, and all of it is seen.
-const BACKDROP: [f64; LIGHTING] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
 
 /// A material of a scene.
 struct Swatch {
@@ -118,23 +63,17 @@ pub struct Palette {
     swatches: Vec<Swatch>,
 }
 
-/// No surface.
-const NONE: u32 = u32::MAX;
-
-/// The surfaces that the rays of a wave hit.
-#[derive(Default)]
-pub struct Looks {
-    /// Those that are met at single points.
-    own: Vec<Surface>,
-    /// For each ray the number of its surface: those of the palette first; [`NONE`] where nothing was hit.
-    numbers: Vec<u32>,
-    /// What lighting reads of them; where nothing was hit, the colour is still to be written.
-    terms: Columns<LIGHTING>,
-    /// Rays whose surfaces have patterns, with the numbers of their materials.
-    varied: Vec<(u32, u32)>,
-}
-
 impl Palette {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.swatches.len()
+    }
+
+    /// The surface of material number `i` at the origin, if there are so many.
+    pub fn surface(&self, i: usize) -> Option<&Surface> {
+        self.swatches.get(i).map(|swatch| &swatch.surface)
+    }
+
     /// The palette of these materials.
     pub fn new(materials: &[Arc<Material>]) -> Self {
         let level = Level::best();
@@ -177,7 +116,7 @@ impl Palette {
         varied.sort_unstable();
         for same in varied.chunk_by(|(a, _), (b, _)| a == b) {
             for some in same.chunks(WIDTH) {
-                looks.paint(self, same[0].0 as usize, outcomes, some);
+                self.paint(looks, same[0].0 as usize, outcomes, some);
             }
         }
         looks.varied = varied;
@@ -230,85 +169,10 @@ impl Palette {
         }
         looks.numbers.resize(end, number);
     }
-}
-
-impl Looks {
-    /// The surface that ray number `i` hit; but what lighting reads of it is in [`Looks::terms`].
-    pub fn at<'a>(&'a self, palette: &'a Palette, i: usize) -> Option<&'a Surface> {
-        let number = self.numbers[i] as usize;
-        match palette.swatches.get(number) {
-            Some(swatch) => Some(&swatch.surface),
-            None => self.own.get(number.wrapping_sub(palette.swatches.len())),
-        }
-    }
-
-    /// The rays that hit the same surface, or nothing, as ranges, with that.
-    pub fn runs<'a>(
-        &'a self,
-        palette: &'a Palette,
-    ) -> impl Iterator<Item = (Range<usize>, Option<&'a Surface>)> {
-        let mut first = 0;
-        self.numbers.chunk_by(|a, b| a == b).map(move |same| {
-            let range = first..first + same.len();
-            first = range.end;
-            (range.clone(), self.at(palette, range.start))
-        })
-    }
-
-    /// What lighting reads of the surfaces of all rays.
-    pub fn terms(&self) -> &Columns<LIGHTING> {
-        &self.terms
-    }
-
-    /// Whether any of these rays hit a surface that answers light, so that shadow rays are of use.
-    pub fn is_any_lit(&self, rays: Range<usize>) -> bool {
-        let terms = Lighting::of(self.terms.columns().map(|column| &column[rays.clone()]));
-        let [r, g, b] = terms.color;
-        let mut lit = 0;
-        for i in 0..rays.len() {
-            let is_colored = (r[i] != 0.0) | (g[i] != 0.0) | (b[i] != 0.0);
-            let is_matt = (terms.diffuse[i] != 0.0) & is_colored;
-            lit += u64::from((terms.specular[i] != 0.0) | is_matt);
-        }
-        lit > 0
-    }
-
-    /// Writes the colours of the sky behind the rays that hit nothing.
-    pub fn write_sky(&mut self, sky: &Sky, rays: &Rays, level: Level) {
-        if self.numbers.contains(&NONE) {
-            let looks = self;
-            run_at(level, Backdrop { looks, sky, rays });
-        }
-    }
-
-    fn add(&mut self, palette: &Palette, surface: Surface) -> u32 {
-        self.own.push(surface);
-        (palette.swatches.len() + self.own.len() - 1) as u32
-    }
-
-    /// Writes what lighting reads of each surface.
-    fn write_terms(&mut self, palette: &Palette) {
-        let mut terms = mem::take(&mut self.terms);
-        terms.resize(self.numbers.len());
-        let mut columns = terms.columns_mut();
-        for (range, surface) in self.runs(palette) {
-            let row = surface.map_or(BACKDROP, row);
-            for (column, number) in columns.iter_mut().zip(row) {
-                column[range.clone()].fill(number);
-            }
-        }
-        self.terms = terms;
-    }
 
     /// Gives these rays, at most [`WIDTH`], their surfaces, all of one material with patterns.
-    fn paint(
-        &mut self,
-        palette: &Palette,
-        number: usize,
-        outcomes: &Outcomes,
-        rays: &[(u32, u32)],
-    ) {
-        let swatch = &palette.swatches[number];
+    fn paint(&self, looks: &mut Looks, number: usize, outcomes: &Outcomes, rays: &[(u32, u32)]) {
+        let swatch = &self.swatches[number];
         let axis = |axis: usize| {
             let column = outcomes.point()[axis];
             // Lanes without a ray repeat the first.
@@ -328,7 +192,7 @@ impl Looks {
             for pattern in &swatch.patterns {
                 let (value, first) = (value(pattern), pattern.column.unwrap_or(0));
                 let count = if first == 0 { 3 } else { 1 };
-                let columns = self.terms.columns_mut().into_iter().skip(first);
+                let columns = looks.terms.columns_mut().into_iter().skip(first);
                 for (column, number) in columns.zip(&value[..count]) {
                     for (lane, (_, ray)) in rays.iter().enumerate() {
                         let number = number.0[lane];
@@ -347,37 +211,10 @@ impl Looks {
             };
             let surface = Surface::of_terms(&swatch.material, &mut known);
             let row = row(&surface);
-            for (column, number) in self.terms.columns_mut().into_iter().zip(row) {
+            for (column, number) in looks.terms.columns_mut().into_iter().zip(row) {
                 column[*ray as usize] = number;
             }
-            self.numbers[*ray as usize] = self.add(palette, surface);
-        }
-    }
-}
-
-/// Writes the sky behind the rays of a wave that hit nothing.
-struct Backdrop<'a> {
-    looks: &'a mut Looks,
-    sky: &'a Sky,
-    rays: &'a Rays,
-}
-
-impl Task for Backdrop<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let numbers = &self.looks.numbers[..];
-        let n = numbers.len();
-        let [x, y, z] = self.rays.direction().map(|column| &column[..n]);
-        let [r, g, b, ..] = self.looks.terms.columns_mut();
-        let (r, g, b) = (&mut r[..n], &mut g[..n], &mut b[..n]);
-        for i in 0..n {
-            let light = sky::radiance(self.sky, DVec3::new(x[i], y[i], z[i]));
-            let is_sky = numbers[i] == NONE;
-            r[i] = if is_sky { light.x } else { r[i] };
-            g[i] = if is_sky { light.y } else { g[i] };
-            b[i] = if is_sky { light.z } else { b[i] };
+            looks.numbers[*ray as usize] = looks.add(self, surface);
         }
     }
 }
@@ -441,10 +278,11 @@ impl Terms for Known<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::lighting::BACKDROP;
     use super::*;
     use crate::num::samples::random;
     use crate::scene::GraphBuilder;
-    use crate::trace::{Occlusions, Outcome, Paint, Visibility};
+    use crate::trace::{Occlusions, Outcome, Paint, Rays, Visibility};
 
     /// Materials alone: part number `i` has material number `i`.
     struct Samples(Vec<Arc<Material>>);

@@ -7,8 +7,9 @@
 use super::attenuation::absorbed;
 use super::census::sum;
 use super::gains::Gains;
+use super::looks::Looks;
 use super::medium::{Medium, Surroundings};
-use super::palette::{Looks, Palette};
+use super::palette::Palette;
 use super::{Census, Features, Surface, Surfaces, offset};
 use crate::trace::{Outcome, Outcomes, Ray, Rays, Verdict, Visibility, count};
 use glam::DVec3;

@@ -13,11 +13,6 @@ impl Rays {
     /// pixels at the origins, and by how much these grow with each scene unit.
     pub const COLUMNS: usize = 9;
 
-    /// As many rays of zeros.
-    pub fn zeros(count: usize) -> Self {
-        Self(Columns::zeros(count))
-    }
-
     /// None yet, with room for as many.
     pub fn with_capacity(count: usize) -> Self {
         Self(Columns::with_capacity(count))

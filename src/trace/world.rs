@@ -187,17 +187,12 @@ impl World {
 
     /// Whether any opaque surface lies on each ray; parts whose shadow is tinted or none are passed over.
     pub fn occluded(&self, rays: &[Ray]) -> Vec<Occlusion> {
-        self.occlusions(&rays.iter().collect()).iter().collect()
-    }
-
-    /// As [`World::occluded`], for rays side by side.
-    pub fn occlusions(&self, rays: &Rays) -> Occlusions {
         let mut found = Occlusions::default();
-        self.occlusions_into(rays, &mut found);
-        found
+        self.occlusions_into(&rays.iter().collect(), &mut found);
+        found.iter().collect()
     }
 
-    /// As [`World::occlusions`]; what was in `found` before is forgotten.
+    /// As [`World::occluded`], for rays side by side; what was in `found` before is forgotten.
     pub fn occlusions_into(&self, rays: &Rays, found: &mut Occlusions) {
         if self.settings.method == Method::Auto {
             found.resize(rays.len());

@@ -28,7 +28,7 @@ pub struct Looks {
 }
 
 impl Looks {
-    /// The surface that ray number `i` hit; but what lighting reads of it is in [`Looks::terms`].
+    /// The surface that ray number `i` hit; but what lighting reads of it is in `terms`.
     pub fn at<'a>(&'a self, palette: &'a Palette, i: usize) -> Option<&'a Surface> {
         let number = self.numbers[i] as usize;
         let plain = palette.surface(number);
@@ -46,11 +46,6 @@ impl Looks {
             first = range.end;
             (range.clone(), self.at(palette, range.start))
         })
-    }
-
-    /// What lighting reads of the surfaces of all rays.
-    pub fn terms(&self) -> &Columns<LIGHTING> {
-        &self.terms
     }
 
     /// Whether any of these rays hit a surface that answers light, so that shadow rays are of use.

@@ -364,7 +364,7 @@ mod tests {
                 let expected = Surface::new(material, outcome.point.to_array());
                 let is_hit = outcome.verdict == Verdict::Hit;
                 let terms = if is_hit { row(&expected) } else { BACKDROP };
-                assert_eq!(looks.terms().row(i), terms);
+                assert_eq!(looks.terms.row(i), terms);
                 let found = looks.at(&palette, i).map(|surface| Surface {
                     color: expected.color,
                     ambient: expected.ambient,

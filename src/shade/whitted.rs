@@ -201,7 +201,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         let mut looks = Looks::default();
         self.look(rays, outcomes, &mut looks);
         let mut colors = Columns::default();
-        colors.append(Lighting::of(looks.terms().columns()).color);
+        colors.append(Lighting::of(looks.terms.columns()).color);
         colors
     }
 
@@ -278,7 +278,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         }
         let Memory { looks, glow, .. } = &mut *studio.memory;
         glow.resize(rays.len());
-        let (terms, weight) = (looks.terms(), &paths.weight);
+        let (terms, weight) = (&looks.terms, &paths.weight);
         run_at(
             self.level,
             Glow {
@@ -352,7 +352,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         } = wave;
         gains.resize_with(self.lamps.len(), Gains::default);
         gains.iter_mut().for_each(Gains::clear);
-        let (terms, weight) = (looks.terms(), &paths.weight);
+        let (terms, weight) = (&looks.terms, &paths.weight);
         for first in (0..rays.len()).step_by(CHUNK) {
             let numbers = first..rays.len().min(first + CHUNK);
             if !looks.is_any_lit(numbers.clone()) {

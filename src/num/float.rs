@@ -114,12 +114,11 @@ pub trait Float:
     fn cos_anywhere(self) -> Self;
 }
 
-/// pi / 2 in three pieces of 33 bits, whose products with `k < 2^20` are exact, and a rest (fdlibm).
-const HALF_PI_PIECES: [f64; 4] = [
+/// pi / 2 in two pieces of 33 bits, whose products with `k < 2^20` are exact, and a rest (fdlibm).
+const HALF_PI_PIECES: [f64; 3] = [
     1.57079632673412561417,
     6.07710050630396597660e-11,
-    2.02226624871116645580e-21,
-    8.47842766036889956997e-32,
+    2.02226624879595063154e-21,
 ];
 
 /// pi / 2 less its first piece (fdlibm).
@@ -261,15 +260,13 @@ impl Float for f64 {
 
     #[inline(always)]
     fn quadrant(self) -> (Self, Self) {
-        let [p, q, r, s] = HALF_PI_PIECES;
+        let [p, q, rest] = HALF_PI_PIECES;
         let quadrant = self * std::f64::consts::FRAC_2_PI + Self::ROUNDER;
         let k = quadrant - Self::ROUNDER;
         let a = self - k * p;
         let b = a - k * q;
-        let b_lost = (a - b) - k * q;
-        let c = b - k * r;
-        let c_lost = (b - c) - k * r;
-        (c - (k * s - (b_lost + c_lost)), quadrant)
+        let lost = (a - b) - k * q;
+        (b - (k * rest - lost), quadrant)
     }
 
     fn sin_anywhere(self) -> Self {

@@ -157,6 +157,22 @@ impl<T: Float, const W: usize> Number for Lanes<T, W> {
     }
 
     #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let (mut sine, mut cosine) = ([T::ZERO; W], [T::ZERO; W]);
+        for i in 0..W {
+            (sine[i], cosine[i]) = kernels::sin_cos_near(self.0[i]);
+        }
+        let (sine, cosine) = (Self(sine), Self(cosine));
+        if self.is_beyond_trig() {
+            return (
+                with_far_lanes(self, sine, T::sin_anywhere),
+                with_far_lanes(self, cosine, T::cos_anywhere),
+            );
+        }
+        (sine, cosine)
+    }
+
+    #[inline(always)]
     fn atan2(self, x: Self) -> Self {
         each!(i => kernels::atan2(self.0[i], x.0[i]))
     }
@@ -219,6 +235,13 @@ mod tests {
                                 a.0[i]
                             );
                         }
+                    }
+                    let (sine, cosine) = a.sin_cos();
+                    for i in 0..$width {
+                        let x = a.0[i];
+                        let (alone, other) = Number::sin_cos(x);
+                        assert_same_bits!(sine.0[i], alone, "sine beside a cosine of {x:e}");
+                        assert_same_bits!(cosine.0[i], other, "cosine beside a sine of {x:e}");
                     }
                     for ((name, wide), (_, scalar)) in
                         binary::<Wide>().into_iter().zip(binary::<$type>())

@@ -39,6 +39,10 @@ macro_rules! scalar {
                 kernels::cos(self)
             }
             #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                kernels::sin_cos(self)
+            }
+            #[inline(always)]
             fn atan2(self, x: Self) -> Self {
                 kernels::atan2(self, x)
             }

@@ -82,7 +82,7 @@ impl Extrude {
         let (mut x, mut y) = (p.x, p.y);
         if self.twist != 0.0 {
             let angle = way * N::splat(self.twist);
-            let (s, c) = (angle.sin(), angle.cos());
+            let (s, c) = angle.sin_cos();
             (x, y) = (p.x * c + p.y * s, p.y * c - p.x * s);
         }
         if self.scale != 1.0 {

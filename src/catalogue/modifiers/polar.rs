@@ -86,7 +86,8 @@ impl Modifier for Polar {
         let mut nearest = N::splat(f64::INFINITY);
         for i in 0..self.asked as u32 {
             let turn = (first + N::splat(f64::from(i))) * N::splat(self.step);
-            nearest = nearest.min(child(&self.turned(p, turn.sin(), turn.cos())));
+            let (sine, cosine) = turn.sin_cos();
+            nearest = nearest.min(child(&self.turned(p, sine, cosine)));
         }
         nearest
     }

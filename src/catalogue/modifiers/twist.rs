@@ -33,7 +33,7 @@ impl Modifier for Twist {
     #[inline(always)]
     fn apply<N: Number>(&self, p: &Vec3<N>, child: impl Fn(&Vec3<N>) -> N) -> N {
         let angle = p.y * N::splat(self.rate);
-        let (s, c) = (angle.sin(), angle.cos());
+        let (s, c) = angle.sin_cos();
         child(&Vec3::new(c * p.x - s * p.z, p.y, s * p.x + c * p.z))
     }
 

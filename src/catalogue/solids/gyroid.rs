@@ -27,7 +27,8 @@ impl Primitive for Gyroid {
     #[inline(always)]
     fn distance<N: Number>(&self, p: &Vec3<N>) -> N {
         let q = *p * N::splat(frequency(self.cell));
-        let wave = q.x.sin() * q.y.cos() + q.y.sin() * q.z.cos() + q.z.sin() * q.x.cos();
+        let (x, y, z) = (q.x.sin_cos(), q.y.sin_cos(), q.z.sin_cos());
+        let wave = x.0 * y.1 + y.0 * z.1 + z.0 * x.1;
         wall(wave, STEEPEST, self.cell, self.thickness)
     }
 

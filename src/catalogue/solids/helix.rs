@@ -46,7 +46,8 @@ fn anomaly<N: Number>(e: N, m: N) -> N {
     u = u.clamp(zero, pi);
     for _ in 0..STEPS {
         // Halley's step, as the second derivative comes for free.
-        let (lift, rise) = (e * u.sin(), one - e * u.cos());
+        let (sine, cosine) = u.sin_cos();
+        let (lift, rise) = (e * sine, one - e * cosine);
         let excess = u - lift - left;
         let slope = rise.square() - half * (excess * lift);
         u = N::select_lt(zero, slope, u - excess * rise / slope, u).clamp(zero, pi);
@@ -122,7 +123,8 @@ impl Primitive for Helix {
             let ahead = level - start;
             let sign = N::select_lt(ahead, zero, -one, one);
             let foot = (start + sign * anomaly(e, ahead.abs())).clamp(-end, end);
-            let (x, z) = (radius * foot.cos(), -(radius * foot.sin()));
+            let (sine, cosine) = foot.sin_cos();
+            let (x, z) = (radius * cosine, -(radius * sine));
             line = line.min(N::norm3(p.x - x, p.y - climb * foot, p.z - z));
         }
         line - N::splat(0.5 * self.thickness)

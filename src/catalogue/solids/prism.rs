@@ -30,7 +30,7 @@ impl Primitive for Prism {
         let z = p.z.abs();
         let half = N::splat(0.5);
         let facing = ((z.atan2(p.x) / step).floor() + half) * step;
-        let (sine, cosine) = (facing.sin(), facing.cos());
+        let (sine, cosine) = facing.sin_cos();
         let side = p.x * cosine + z * sine - N::splat(self.apothem);
         let corner = (z * cosine - p.x * sine).abs() - N::splat(self.half_side);
         let cap = p.y.abs() - N::splat(0.5 * self.height);

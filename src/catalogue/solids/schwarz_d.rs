@@ -31,7 +31,8 @@ impl Primitive for SchwarzD {
     #[inline(always)]
     fn distance<N: Number>(&self, p: &Vec3<N>) -> N {
         let q = *p * N::splat(frequency(self.cell));
-        let wave = q.x.cos() * q.y.cos() * q.z.cos() - q.x.sin() * q.y.sin() * q.z.sin();
+        let (x, y, z) = (q.x.sin_cos(), q.y.sin_cos(), q.z.sin_cos());
+        let wave = x.1 * y.1 * z.1 - x.0 * y.0 * z.0;
         wall(wave, STEEPEST, self.cell, self.thickness)
     }
 

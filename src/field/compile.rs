@@ -114,18 +114,20 @@ pub fn combine<N: Number>(
     }
 }
 
-/// How many registers of a user's field live on the stack.
-const FEW_REGISTERS: usize = 16;
+/// How many registers of a program live on the stack: more cost more, as every register begins with a value.
+const FEW_REGISTERS: usize = 6;
+const SOME_REGISTERS: usize = 12;
+const MANY_REGISTERS: usize = 32;
 
 /// The functions that make closures, for one level.
 macro_rules! builders {
     ($(#[$feature:meta])* mod $level:ident) => {
         mod $level {
-            use super::{Closure, FEW_REGISTERS, Walked};
+            use super::{Closure, FEW_REGISTERS, MANY_REGISTERS, SOME_REGISTERS, Walked};
             use crate::catalogue::{Blend, Combination, Modifier, Operation, Primitive, Similarity};
             use crate::catalogue::{with_compiled_blend, with_compiled_modifier, with_compiled_primitive};
             use crate::num::{Number, Vec3};
-            use crate::scene::{Graph, Node, Shape};
+            use crate::scene::{Graph, Node, Program, Shape};
             use std::sync::Arc;
 
             /// The closure of a node: transforms that keep angles are folded into one.
@@ -231,34 +233,61 @@ macro_rules! builders {
 
             $(#[$feature])*
             fn recorded<N: Number>(graph: &Arc<Graph>) -> Closure<N> {
-                let walk = walked::<N>(graph);
+                let program = Program::new(graph);
+                let shapes = graph.shapes().iter().map(|s| build::<N, true>(s)).collect();
+                match program.registers() {
+                    0..=FEW_REGISTERS => recorded_in::<N, FEW_REGISTERS>(program, shapes),
+                    ..=SOME_REGISTERS => recorded_in::<N, SOME_REGISTERS>(program, shapes),
+                    ..=MANY_REGISTERS => recorded_in::<N, MANY_REGISTERS>(program, shapes),
+                    count => Arc::new(move |p: &Vec3<N>| {
+                        let mut registers = vec![p.x; count];
+                        walk(&program, &shapes, p, &mut registers);
+                        program.output(&registers, 0)
+                    }),
+                }
+            }
+
+            $(#[$feature])*
+            fn recorded_in<N: Number, const R: usize>(program: Program, shapes: Vec<Closure<N>>) -> Closure<N> {
                 Arc::new(move |p: &Vec3<N>| {
-                    let mut output = [N::splat(0.0)];
-                    walk(p, &mut output);
-                    output[0]
+                    let mut registers = [p.x; R];
+                    walk(&program, &shapes, p, &mut registers);
+                    program.output(&registers, 0)
                 })
             }
 
             /// The walk over a graph: writes its outputs.
             $(#[$feature])*
             pub(super) fn walked<N: Number>(graph: &Arc<Graph>) -> Walked<N> {
-                let shapes: Vec<Closure<N>> = graph.shapes().iter().map(|s| build::<N, true>(s)).collect();
-                let graph = graph.clone();
+                let program = Program::new(graph);
+                let shapes = graph.shapes().iter().map(|s| build::<N, true>(s)).collect();
+                match program.registers() {
+                    0..=FEW_REGISTERS => walked_in::<N, FEW_REGISTERS>(program, shapes),
+                    ..=SOME_REGISTERS => walked_in::<N, SOME_REGISTERS>(program, shapes),
+                    ..=MANY_REGISTERS => walked_in::<N, MANY_REGISTERS>(program, shapes),
+                    count => Arc::new(move |p: &Vec3<N>, outputs: &mut [N]| {
+                        let mut registers = vec![p.x; count];
+                        walk(&program, &shapes, p, &mut registers);
+                        program.write(&registers, outputs);
+                    }),
+                }
+            }
+
+            $(#[$feature])*
+            fn walked_in<N: Number, const R: usize>(program: Program, shapes: Vec<Closure<N>>) -> Walked<N> {
                 Arc::new(move |p: &Vec3<N>, outputs: &mut [N]| {
-                    // Few registers live on the stack; one walk serves both, or the code would double.
-                    let mut few = [N::splat(0.0); FEW_REGISTERS];
-                    let mut many = Vec::new();
-                    let registers = if graph.registers() <= FEW_REGISTERS {
-                        &mut few[..]
-                    } else {
-                        many.resize(graph.registers(), N::splat(0.0));
-                        &mut many[..]
-                    };
-                    graph.run(p, registers, &|i, q: &Vec3<N>| shapes[i](q));
-                    for (i, output) in outputs.iter_mut().enumerate() {
-                        *output = graph.output(registers, i);
-                    }
+                    let mut registers = [p.x; R];
+                    walk(&program, &shapes, p, &mut registers);
+                    program.write(&registers, outputs);
                 })
+            }
+
+            /// One walk over a program, in registers that all hold the point's x: apart, because its code is long.
+            $(#[$feature])*
+            #[inline(never)]
+            fn walk<N: Number>(program: &Program, shapes: &[Closure<N>], p: &Vec3<N>, registers: &mut [N]) {
+                (registers[1], registers[2]) = (p.y, p.z);
+                program.run(p, registers, &|i, q: &Vec3<N>| shapes[i](q));
             }
         }
     };

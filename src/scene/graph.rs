@@ -13,10 +13,15 @@ use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// A value inside a [`GraphBuilder`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Id(u32);
 
 impl Id {
+    /// That of the operation at this place in the list.
+    pub(super) fn at(place: usize) -> Self {
+        Self(place as u32)
+    }
+
     /// The place of its operation in the list.
     pub(super) fn index(self) -> usize {
         self.0 as usize
@@ -49,7 +54,8 @@ pub(super) enum Op {
 }
 
 impl Op {
-    fn operands(&self) -> ([Id; 4], usize) {
+    /// Its operands, and how many of them count.
+    pub(super) fn operands(&self) -> ([Id; 4], usize) {
         let pad = |ids: &[Id]| {
             let first = ids.first().copied().unwrap_or(Id(0));
             (
@@ -68,7 +74,8 @@ impl Op {
         }
     }
 
-    fn with_operands(self, rename: impl Fn(Id) -> Id) -> Self {
+    /// The same operation on other operands.
+    pub(super) fn with_operands(self, rename: impl Fn(Id) -> Id) -> Self {
         match self {
             Self::Constant(_) | Self::Coordinate(_) => self,
             Self::Negate(a) => Self::Negate(rename(a)),
@@ -183,6 +190,10 @@ impl GraphBuilder {
         let is_zero = self.drops_zeros && self.known(a) == Some(0.0);
         if is_zero || self.known(b) == Some(1.0) {
             return a;
+        }
+        if let Some(inverse) = self.known(b).and_then(exact_inverse) {
+            let inverse = self.constant(inverse);
+            return self.multiply(a, inverse);
         }
         self.push(Op::Divide(a, b))
     }
@@ -371,9 +382,16 @@ impl GraphBuilder {
             Id(**next - 1)
         });
         let nowhere = Vec3::splat([0.0; 3]);
-        let value = step(&local, &nowhere, &registers, &|_, _: &Vec3<f64>| f64::NAN);
+        let value = apply(&local, &nowhere, &registers, &|_, _: &Vec3<f64>| f64::NAN);
         Some(Op::Constant(value.to_bits()))
     }
+}
+
+/// The reciprocal of a power of two, by which a product has the bits of the quotient.
+fn exact_inverse(divisor: f64) -> Option<f64> {
+    let is_power = divisor.to_bits() & ((1 << 52) - 1) == 0;
+    let is_moderate = (2f64.powi(-100)..2f64.powi(100)).contains(&divisor.abs());
+    (is_power && is_moderate).then_some(1.0 / divisor)
 }
 
 /// A step of the finished list: an operation on registers, and the register that takes its value.
@@ -426,7 +444,7 @@ fn allocate(ops: &[Op], outputs: &[Id]) -> (Vec<Step>, usize, Vec<u32>) {
 
 /// The value of one operation on registers.
 #[inline(always)]
-fn step<N: Number>(
+pub(super) fn apply<N: Number>(
     op: &Op,
     p: &Vec3<N>,
     registers: &[N],
@@ -571,6 +589,19 @@ impl Graph {
         self.steps.len()
     }
 
+    /// The operations, each on those before it, and which of them give the outputs.
+    pub(super) fn operations(&self) -> (Vec<Op>, Vec<Id>) {
+        // What each register holds by then.
+        let mut held = vec![Id(0); self.registers];
+        let mut ops = Vec::with_capacity(self.steps.len());
+        for (i, step) in self.steps.iter().enumerate() {
+            ops.push(step.op.with_operands(|id| held[id.index()]));
+            held[step.into as usize] = Id::at(i);
+        }
+        let outputs = self.outputs.iter().map(|r| held[*r as usize]);
+        (ops, outputs.collect())
+    }
+
     /// How many operations a walk takes, with the nodes of shapes as often as they are asked.
     pub(super) fn work(&self) -> u64 {
         let of_step = |step: &Step| match step.op {
@@ -596,7 +627,7 @@ impl Graph {
         shape: &impl Fn(usize, &Vec3<N>) -> N,
     ) {
         for s in &self.steps {
-            registers[s.into as usize] = step(&s.op, p, registers, shape);
+            registers[s.into as usize] = apply(&s.op, p, registers, shape);
         }
     }
 
@@ -633,7 +664,7 @@ impl Graph {
                 .iter()
                 .flatten()
                 .all(|steep| steep.slope().is_finite());
-            let value = step(&s.op, &p, &registers, &|i, q| self.shapes[i].evaluate(q));
+            let value = apply(&s.op, &p, &registers, &|i, q| self.shapes[i].evaluate(q));
             registers[s.into as usize] = value;
             if value.slope().is_finite() || !is_sound {
                 continue;

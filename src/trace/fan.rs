@@ -47,8 +47,11 @@ impl Packet {
 pub(super) fn fan(packet: &mut Packet, lane: usize, value: &Closure<F64x32>, rules: &Rules) {
     let p = packet;
     let slope = rules.lipschitz;
-    let [origin, direction] =
-        [&p.origin, &p.direction].map(|c| [0, 1, 2].map(|i| [c[i][lane]; WIDTH]));
+    let (mut origin, mut direction) = ([[0.0; WIDTH]; 3], [[0.0; WIDTH]; 3]);
+    for axis in 0..3 {
+        origin[axis] = [p.origin[axis][lane]; WIDTH];
+        direction[axis] = [p.direction[axis][lane]; WIDTH];
+    }
     let limit = p.limit[lane];
     let (mut last_t, mut last) = (p.last_t[lane], p.last_value[lane]);
     // The gap that was not free in the fan before.
@@ -111,7 +114,6 @@ pub(super) fn fan(packet: &mut Packet, lane: usize, value: &Closure<F64x32>, rul
             }
             (last_t, last) = (t[k], now);
             (p.last_t[lane], p.last_value[lane]) = (last_t, last);
-            p.side[lane] = if now < 0.0 { -1.0 } else { 1.0 };
         }
         if last_t >= limit {
             p.state[lane] = state::ARRIVED;

@@ -180,6 +180,7 @@ pub(super) fn clip(
 
 /// Where a ray walks that is inside of a region from `enter` to `leave`, with room for the rounding of places along it;
 /// `origin` is the largest coordinate of its own. A ray that ends at `t_max` goes no farther.
+#[inline(always)]
 pub(super) fn stretch(origin: f64, enter: f64, leave: f64, t_max: f64) -> (f64, f64) {
     let slack = |t: f64| 32.0 * f64::EPSILON * (origin + t);
     let start = (enter - slack(enter)).max(0.0);

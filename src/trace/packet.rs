@@ -6,10 +6,11 @@
 )]
 
 use super::Verdict;
-use super::bundle::{Bundle, WIDTH};
+use super::bundle::{Bundle, CAPACITY, Column, WIDTH};
 use super::hierarchy::stretch;
 use super::method::{Ending, finest};
 use super::part::Marched;
+use crate::field::Task;
 use crate::num::{F64x32, Lanes, Vec3};
 
 /// A number for each lane.
@@ -35,6 +36,18 @@ pub(super) mod state {
     pub const REFUTED: i64 = 7;
     /// It goes on by itself, outside of the lanes.
     pub const SINGLE: i64 = 8;
+
+    /// Whether it steps or looks for a pair of roots.
+    #[inline(always)]
+    pub fn is_marching(state: i64) -> bool {
+        state > IDLE && state < ENCLOSING
+    }
+
+    /// Whether it wants another value.
+    #[inline(always)]
+    pub fn is_going(state: i64) -> bool {
+        state > IDLE && state < ARRIVED
+    }
 }
 
 /// How a tolerance is divided by the grid on which hits lie: one more evaluation than a thousandth takes, and what is
@@ -69,16 +82,15 @@ pub(super) struct Packet {
     pub(super) t: Lane,
     /// The error of a hit that a walk by tangents found.
     pub(super) error: Lane,
-    /// On which side of the surface the ray is known to be: 1 outside, -1 inside, 0 unknown.
+    /// On which side of the surface the ray is known to be as long as it has no last sample: 1 outside, -1 inside, 0 unknown.
     pub(super) side: Lane,
+    /// Where the last sample that counts was taken; before all where there is none.
     pub(super) last_t: Lane,
     pub(super) last_value: Lane,
     pub(super) high_t: Lane,
     pub(super) high_value: Lane,
     pub(super) state: [i64; WIDTH],
     pub(super) departed: [i64; WIDTH],
-    /// Whether the last sample counts.
-    pub(super) has_last: [i64; WIDTH],
     pub(super) steps: [i64; WIDTH],
     pub(super) narrowings: [i64; WIDTH],
     pub(super) evaluations: [i64; WIDTH],
@@ -126,7 +138,7 @@ macro_rules! copy_lane {
         copy_lane! {
             $from, $source => $to, $lane;
             footprint spread size far grid finer start end limit t error side last_t last_value high_t high_value state departed
-            has_last steps narrowings evaluations ray
+            steps narrowings evaluations ray
         }
     }};
     ($from:expr, $source:expr => $to:expr, $lane:expr; $($column:ident)*) => {
@@ -134,53 +146,101 @@ macro_rules! copy_lane {
     };
 }
 
-impl Packet {
-    /// Takes these rays of a bundle, at most 32, from where they enter the region to where they leave it.
-    pub fn load(&mut self, bundle: &Bundle, rays: &[u32], rules: &Rules) {
-        self.count = rays.len();
+/// Takes these rays of a bundle, at most 32, from where they enter the region to where they leave it.
+pub(super) struct Load<'a> {
+    /// The lanes.
+    pub packet: &'a mut Packet,
+    /// Where the rays are.
+    pub bundle: &'a Bundle,
+    /// Which of them.
+    pub rays: &'a [u32],
+    /// What they go by.
+    pub rules: &'a Rules,
+}
+
+impl Task for Load<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self {
+            packet: p,
+            bundle,
+            rays,
+            rules,
+        } = self;
+        p.count = rays.len();
+        let mut places = [0; WIDTH];
         for lane in 0..WIDTH {
             // Lanes without a ray repeat the first, so that they cost nothing unusual.
-            let ray = rays[if lane < rays.len() { lane } else { 0 }] as usize;
-            let mut origin = 0.0f64;
-            for axis in 0..3 {
-                let o = bundle.origin[axis][ray];
-                self.origin[axis][lane] = o;
-                self.direction[axis][lane] = bundle.direction[axis][ray];
-                origin = origin.max(o.abs());
-            }
-            let (enter, leave) = (bundle.enter[ray], bundle.leave[ray]);
-            let (start, end) = stretch(origin, enter, leave, bundle.t_max[ray]);
-            let (footprint, spread) = (bundle.footprint[ray], bundle.spread[ray]);
-            let size = origin + rules.reach;
-            let has_ray = lane < rays.len();
-            self.footprint[lane] = footprint;
-            self.spread[lane] = spread;
-            self.size[lane] = size;
-            self.far[lane] = f64::INFINITY;
-            let spacing = grid(start, size, rules, footprint, spread);
-            self.grid[lane] = spacing;
-            self.finer[lane] = 1.0 / spacing;
-            self.start[lane] = start;
-            self.end[lane] = end;
-            self.error[lane] = 0.0;
-            self.limit[lane] = end;
-            self.t[lane] = start;
-            // The region holds the solid, so a ray that comes into it is outside, whatever rounding says.
-            self.side[lane] = if start > 0.0 { 1.0 } else { 0.0 };
-            self.last_t[lane] = 0.0;
-            self.last_value[lane] = 0.0;
-            self.high_t[lane] = 0.0;
-            self.high_value[lane] = 0.0;
-            self.state[lane] = if has_ray { state::FRESH } else { state::IDLE };
-            self.departed[lane] = i64::from(start > 0.0);
-            self.has_last[lane] = 0;
-            self.steps[lane] = 0;
-            self.narrowings[lane] = 0;
-            self.evaluations[lane] = 0;
-            self.ray[lane] = ray as u32;
+            let ray = rays[if lane < rays.len() { lane } else { 0 }];
+            p.ray[lane] = ray;
+            places[lane] = ray as usize % CAPACITY;
+            p.state[lane] = if lane < rays.len() {
+                state::FRESH
+            } else {
+                state::IDLE
+            };
         }
+        for axis in 0..3 {
+            p.origin[axis] = picked(&bundle.origin[axis], &places);
+            p.direction[axis] = picked(&bundle.direction[axis], &places);
+        }
+        p.footprint = picked(&bundle.footprint, &places);
+        p.spread = picked(&bundle.spread, &places);
+        let enter = picked(&bundle.enter, &places);
+        let leave = picked(&bundle.leave, &places);
+        let t_max = picked(&bundle.t_max, &places);
+        for lane in 0..WIDTH {
+            let [x, y, z] = [&p.origin[0], &p.origin[1], &p.origin[2]];
+            let origin = larger(larger(x[lane].abs(), y[lane].abs()), z[lane].abs());
+            let (start, end) = stretch(origin, enter[lane], leave[lane], t_max[lane]);
+            let size = origin + rules.reach;
+            let spacing = grid(start, size, rules, p.footprint[lane], p.spread[lane]);
+            p.size[lane] = size;
+            p.grid[lane] = spacing;
+            p.finer[lane] = 1.0 / spacing;
+            p.start[lane] = start;
+            p.end[lane] = end;
+            p.limit[lane] = end;
+            p.t[lane] = start;
+            // The region holds the solid, so a ray that comes into it is outside, whatever rounding says.
+            p.side[lane] = if start > 0.0 { 1.0 } else { 0.0 };
+            p.departed[lane] = i64::from(start > 0.0);
+        }
+        p.far = [f64::INFINITY; WIDTH];
+        p.error = [0.0; WIDTH];
+        p.last_t = [f64::NEG_INFINITY; WIDTH];
+        p.last_value = [0.0; WIDTH];
+        p.high_t = [0.0; WIDTH];
+        p.high_value = [0.0; WIDTH];
+        p.steps = [0; WIDTH];
+        p.narrowings = [0; WIDTH];
+        p.evaluations = [0; WIDTH];
     }
+}
 
+/// The numbers of the rays at these places.
+#[inline(always)]
+fn picked(column: &Column, places: &[usize; WIDTH]) -> Lane {
+    let mut lanes = [0.0; WIDTH];
+    for lane in 0..WIDTH {
+        lanes[lane] = column[places[lane] % CAPACITY];
+    }
+    lanes
+}
+
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[inline(always)]
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+impl Packet {
     /// Readies the lanes for the stretch from `from` up to `to`. What lies before it is known to be free and on the side
     /// `before` (1 outside, -1 inside), if that is given. Gives whether any lane has a way to go.
     pub fn enter(&mut self, from: f64, to: f64, before: Option<f64>) -> bool {
@@ -193,14 +253,14 @@ impl Packet {
                 // The samples before the free stretch say nothing any more.
                 self.t[lane] = from;
                 self.side[lane] = side;
-                self.has_last[lane] = 0;
+                self.last_t[lane] = f64::NEG_INFINITY;
                 self.departed[lane] = 1;
             }
             let limit = to.min(self.end[lane]);
             self.limit[lane] = limit;
             self.state[lane] = if self.t[lane] > limit {
                 state::ARRIVED
-            } else if self.has_last[lane] != 0 {
+            } else if self.has_last(lane) {
                 state::MARCHING
             } else {
                 state::FRESH
@@ -208,6 +268,12 @@ impl Packet {
             any |= self.state[lane] != state::ARRIVED;
         }
         any
+    }
+
+    /// Whether a lane has a last sample.
+    #[inline(always)]
+    pub fn has_last(&self, lane: usize) -> bool {
+        self.last_t[lane] > f64::NEG_INFINITY
     }
 
     /// Takes over a lane of another packet, which is idle afterwards.
@@ -234,8 +300,7 @@ impl Packet {
 
     /// The lanes that go on.
     pub fn going(&self) -> impl Iterator<Item = usize> {
-        (0..WIDTH)
-            .filter(|lane| self.state[*lane] < state::ARRIVED && self.state[*lane] != state::IDLE)
+        (0..WIDTH).filter(|lane| state::is_going(self.state[*lane]))
     }
 
     /// The lanes that have come to the end of their stretch.
@@ -302,17 +367,19 @@ impl Packet {
 }
 
 /// The spacing of the places where a ray's hits are enclosed: a power of two that depends on the ray and the part alone.
+#[inline(always)]
 fn grid(start: f64, size: f64, rules: &Rules, footprint: f64, spread: f64) -> f64 {
-    let t = start.max(size * NEAR);
+    let t = larger(start, size * NEAR);
     // Where a pixel is wider than the whole shape, the shape is the measure.
-    let tolerance = (rules.tolerance * (footprint + spread * t)).min(rules.extent);
-    power_of_two((GRID * tolerance).max(2.0 * finest(size, 2.0 * size)))
+    let tolerance = smaller(rules.tolerance * (footprint + spread * t), rules.extent);
+    power_of_two(larger(GRID * tolerance, 2.0 * finest(size, 2.0 * size)))
 }
 
 /// The largest power of two that is not above `x`.
+#[inline(always)]
 fn power_of_two(x: f64) -> f64 {
     let exponent = x.to_bits() & (0x7ff << 52);
-    f64::from_bits(exponent).max(f64::MIN_POSITIVE)
+    larger(f64::from_bits(exponent), f64::MIN_POSITIVE)
 }
 
 fn is_walking(state: i64) -> bool {

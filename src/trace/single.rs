@@ -77,8 +77,9 @@ impl Packet {
         segment: Segment,
         marched: &Marched,
     ) -> Ending {
-        let has_last = self.has_last[lane] != 0;
-        let last = has_last.then_some((self.last_t[lane], self.last_value[lane]));
+        let last = self
+            .has_last(lane)
+            .then_some((self.last_t[lane], self.last_value[lane]));
         let mut trail = Trail::from(last);
         let mut walk = Certified::resume(
             segment,

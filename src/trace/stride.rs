@@ -50,9 +50,10 @@ impl Task for Stride<'_> {
             rules,
             few,
         } = self;
+        let inverse = 1.0 / rules.lipschitz;
         loop {
             let values = value(&places(&packet.origin, &packet.direction, &packet.t));
-            let going = step(packet, &values.0, rules);
+            let going = step(packet, &values.0, rules, inverse);
             if going <= few {
                 return;
             }
@@ -67,51 +68,83 @@ impl Task for Stride<'_> {
     }
 }
 
-/// How many lanes go through a step at once; where none of them goes on, the step is left out.
+/// How many lanes go through a step at once. What none of them does is left out.
 const GROUP: usize = 8;
 
-/// Lets every lane observe its value; gives how many go on.
+/// Lets every lane observe its value, given the reciprocal of the constant; gives how many go on.
 #[inline(always)]
-fn step(packet: &mut Packet, values: &Lane, rules: &Rules) -> i64 {
-    let mut going = 0;
+fn step(packet: &mut Packet, values: &Lane, rules: &Rules, inverse: f64) -> i64 {
+    let mut going = [0; GROUP];
     for first in (0..WIDTH).step_by(GROUP) {
-        let mut is_idle = true;
+        let mut marches = false;
         for i in first..first + GROUP {
-            let state = packet.state[i];
-            is_idle &= (state == state::IDLE) | (state >= state::ARRIVED);
+            marches |= state::is_marching(packet.state[i]);
+            packet.evaluations[i] += i64::from(state::is_going(packet.state[i]));
         }
-        if !is_idle {
-            going += step_group(packet, values, rules, first);
+        if marches {
+            if rules.is_endless {
+                reach(packet, values, inverse, first);
+            }
+            march(packet, values, rules, inverse, first);
+        }
+        let mut encloses = false;
+        for i in first..first + GROUP {
+            encloses |= packet.state[i] == state::ENCLOSING;
+        }
+        if encloses {
+            narrow(packet, values, rules, first);
+        }
+        // Not one sum: it would be taken lane by lane.
+        for i in 0..GROUP {
+            going[i] += i64::from(state::is_going(packet.state[first + i]));
         }
     }
-    going
+    going.into_iter().sum()
 }
 
-/// As [`step`], for the lanes from `first` on.
+/// The value of a lane, given the side of the surface that it is known to be on.
 #[inline(always)]
-fn step_group(packet: &mut Packet, values: &Lane, rules: &Rules, first: usize) -> i64 {
-    let p = packet;
+fn observed(p: &Packet, values: &Lane, i: usize) -> f64 {
+    let (now, side) = (values[i], p.side[i]);
+    if (p.state[i] == state::FRESH) & (now * side <= 0.0) & (side != 0.0) {
+        side * f64::MIN_POSITIVE
+    } else {
+        now
+    }
+}
+
+/// How far the lanes from `first` on are followed through a shape without end: found from their first values.
+#[inline(always)]
+fn reach(p: &mut Packet, values: &Lane, inverse: f64, first: usize) {
+    for i in first..first + GROUP {
+        let free = observed(p, values, i).abs() * inverse;
+        let size = free.max(p.size[i]).max(p.footprint[i]);
+        let is_first = (p.steps[i] == 0) & (p.state[i] == state::FRESH);
+        p.far[i] = if is_first {
+            size * (1u64 << 30) as f64
+        } else {
+            p.far[i]
+        };
+    }
+}
+
+/// A step of the lanes from `first` on that march; those that meet a change of sign begin to enclose it.
+#[inline(always)]
+fn march(p: &mut Packet, values: &Lane, rules: &Rules, inverse: f64, first: usize) {
     let slope = rules.lipschitz;
-    let inverse = 1.0 / slope;
     let max_steps = i64::from(rules.max_steps);
     // Where any hit will do, a change of sign needs no more.
     let careless = if rules.any { f64::INFINITY } else { 0.0 };
-    let mut going = 0;
     for i in first..first + GROUP {
-        let (now, t, was) = (values[i], p.t[i], p.state[i]);
+        let now = observed(p, values, i);
+        let (t, was) = (p.t[i], p.state[i]);
         let (last_t, last_value) = (p.last_t[i], p.last_value[i]);
         let (high_t, high_value) = (p.high_t[i], p.high_value[i]);
         let is_fresh = was == state::FRESH;
         let is_probing = was == state::PROBING;
-        let is_enclosing = was == state::ENCLOSING;
+        let is_stepping = is_fresh || was == state::MARCHING;
         let has_last = was == state::MARCHING || is_probing;
         let is_marching = is_fresh || has_last;
-        let contradicts = is_fresh && now * p.side[i] <= 0.0 && p.side[i] != 0.0;
-        let now = if contradicts {
-            p.side[i] * f64::MIN_POSITIVE
-        } else {
-            now
-        };
 
         // What the sample says beside the last one.
         let noise = 64.0 * f64::EPSILON * (p.size[i] + t) * slope;
@@ -146,24 +179,14 @@ fn step_group(packet: &mut Packet, values: &Lane, rules: &Rules, first: usize) -
             rounding
         };
         let free = here.abs() * inverse;
-        let is_at_end = here_t >= p.limit[i];
-        let has_arrived = is_at_end || here_t + free > p.limit[i];
-        let reach = free.max(p.size[i]).max(p.footprint[i]) * (1u64 << 30) as f64;
-        let is_first = p.steps[i] == 0;
-        let far = if is_first && rules.is_endless {
-            reach
-        } else {
-            p.far[i]
-        };
+        let limit = p.limit[i];
+        let is_at_end = here_t >= limit;
+        let has_arrived = is_at_end || here_t + free > limit;
         let spent = p.steps[i] + 1 >= max_steps || p.narrowings[i] >= MAX_NARROWINGS;
-        let is_rare = now.is_nan() || spent || here_t > far;
+        let is_rare = now.is_nan() || spent || here_t > p.far[i];
         let is_on_surface = here == 0.0 || (!has_departed && now.abs() <= noise);
-        let is_inside = here_t + epsilon < p.limit[i] || is_at_end;
-        let short = if is_inside {
-            here_t + epsilon
-        } else {
-            p.limit[i]
-        };
+        let is_inside = here_t + epsilon < limit || is_at_end;
+        let short = if is_inside { here_t + epsilon } else { limit };
         // As far as the field may be free if it goes on changing as it did since the last sample.
         let way = slope * (here_t - last_t);
         let rise = here.abs() - last_value.abs();
@@ -176,8 +199,8 @@ fn step_group(packet: &mut Packet, values: &Lane, rules: &Rules, first: usize) -
         let factor = SHYNESS * way / share;
         let may_leap = has_last && has_departed && factor > 1.0;
         let leap = free * if may_leap { factor } else { 1.0 };
-        let is_inside = here_t + leap < p.limit[i] || has_arrived;
-        let relaxed = if is_inside { here_t + leap } else { p.limit[i] };
+        let is_inside = here_t + leap < limit || has_arrived;
+        let relaxed = if is_inside { here_t + leap } else { limit };
         let relaxed = if has_arrived { here_t + free } else { relaxed };
         let next = if leap >= epsilon { relaxed } else { short };
         let next = if halves { t + 0.5 * rest } else { next };
@@ -193,7 +216,7 @@ fn step_group(packet: &mut Packet, values: &Lane, rules: &Rules, first: usize) -
             epsilon
         };
         let next = if retreats { last_t + retreat } else { next };
-        let marched = if is_rare {
+        let becomes = if is_rare {
             state::SINGLE
         } else if is_refuted {
             state::REFUTED
@@ -210,27 +233,46 @@ fn step_group(packet: &mut Packet, values: &Lane, rules: &Rules, first: usize) -
         } else {
             state::MARCHING
         };
-        let ends = marched == state::SINGLE || marched == state::REFUTED;
 
-        // Enclosing: the new sample takes the place of the end with its sign.
-        let is_low = now != 0.0 && (now < 0.0) == (last_value < 0.0);
-        let begins = is_marching && marched == state::ENCLOSING;
-        let encloses = is_enclosing || begins;
-        let low_t = if is_enclosing && is_low { t } else { last_t };
-        let low_value = if is_enclosing && is_low {
-            now
-        } else {
-            last_value
-        };
-        let is_new_high = begins || !is_low;
-        let top_t = if is_new_high { t } else { high_t };
-        let top_value = if is_new_high { now } else { high_value };
+        // What becomes of the lane. Where it ends or encloses, it stays where it is.
+        let stays = is_rare || is_refuted || is_crossing;
+        let begins = is_marching && !is_rare && !is_refuted && is_crossing;
+        let sets_last = is_marching && !stays && !goes_back && !retreats && !is_on_surface;
+        p.last_t[i] = if sets_last { here_t } else { last_t };
+        p.last_value[i] = if sets_last { here } else { last_value };
+        // The far end of a step that is doubted, or of a change of sign.
+        let is_high = is_marching && (goes_back || begins);
+        p.high_t[i] = if is_high { t } else { high_t };
+        p.high_value[i] = if is_high { now } else { high_value };
+        p.t[i] = if is_marching && !stays { next } else { t };
+        p.state[i] = if is_marching { becomes } else { was };
+        p.departed[i] |= i64::from(is_marching && free > epsilon);
+        p.steps[i] += i64::from(is_stepping);
+        let starts_anew = is_marching && (begins || becomes == state::MARCHING);
+        let narrowings = if starts_anew { 0 } else { p.narrowings[i] };
+        let probes = is_marching && becomes == state::PROBING;
+        p.narrowings[i] = narrowings + i64::from(probes);
+    }
+}
+
+/// A step of the lanes from `first` on that enclose: the new sample takes the place of the end with its sign.
+#[inline(always)]
+fn narrow(p: &mut Packet, values: &Lane, rules: &Rules, first: usize) {
+    // Where any hit will do, a change of sign needs no more.
+    let careless = if rules.any { f64::INFINITY } else { 0.0 };
+    for i in first..first + GROUP {
+        let encloses = p.state[i] == state::ENCLOSING;
+        let (now, t) = (values[i], p.t[i]);
+        let is_low = now != 0.0 && (now < 0.0) == (p.last_value[i] < 0.0);
+        let low_t = if is_low { t } else { p.last_t[i] };
+        let low_value = if is_low { now } else { p.last_value[i] };
+        let top_t = if is_low { p.high_t[i] } else { t };
+        let top_value = if is_low { p.high_value[i] } else { now };
         let span = top_t - low_t;
         // Both are powers of two, so their products are exact.
         let (grid, finer) = (p.grid[i], p.finer[i]);
         let widest = grid + careless;
-        let starts_anew = is_marching && (begins || marched == state::MARCHING);
-        let narrowings = if starts_anew { 0 } else { p.narrowings[i] };
+        let narrowings = p.narrowings[i];
         let is_done = top_value == 0.0 || span <= widest || narrowings >= MAX_NARROWINGS;
         let secant = low_t + low_value / (low_value - top_value) * span;
         let middle = low_t + 0.5 * span;
@@ -244,42 +286,17 @@ fn step_group(packet: &mut Packet, values: &Lane, rules: &Rules, first: usize) -
         let above = (Number::floor(low_t * finer) + 1.0) * grid;
         let aligned = if below > low_t { below } else { above };
         let probe = if aligned < top_t { aligned } else { middle };
-        let narrowed = if is_done {
+        let becomes = if is_done {
             state::HIT
         } else {
             state::ENCLOSING
         };
-
-        // What becomes of the lane.
-        let becomes = if is_marching { marched } else { was };
-        let becomes = if encloses { narrowed } else { becomes };
-        let sets_last = is_marching && !ends && !goes_back && !retreats && !is_on_surface;
-        let last_t = if sets_last { here_t } else { last_t };
-        let last_value = if sets_last { here } else { last_value };
-        // The far end of a step that is doubted.
-        let is_doubted = is_marching && goes_back;
-        let high_t = if is_doubted { t } else { high_t };
-        let high_value = if is_doubted { now } else { high_value };
-        p.state[i] = becomes;
-        p.last_t[i] = if encloses { low_t } else { last_t };
-        p.last_value[i] = if encloses { low_value } else { last_value };
-        p.high_t[i] = if encloses { top_t } else { high_t };
-        p.high_value[i] = if encloses { top_value } else { high_value };
-        let moved = if is_marching && !ends { next } else { t };
-        p.t[i] = if encloses { probe } else { moved };
-        let sign = if here < 0.0 { -1.0 } else { 1.0 };
-        p.side[i] = if sets_last { sign } else { p.side[i] };
-        p.has_last[i] = if is_marching {
-            i64::from(has_last || sets_last)
-        } else {
-            p.has_last[i]
-        };
-        p.far[i] = far;
-        p.departed[i] |= i64::from(is_marching && free > epsilon);
-        p.steps[i] += i64::from(is_fresh || was == state::MARCHING);
-        p.evaluations[i] += i64::from(is_marching || is_enclosing);
-        p.narrowings[i] = narrowings + i64::from(encloses || becomes == state::PROBING);
-        going += i64::from(becomes < state::ARRIVED && becomes != state::IDLE);
+        p.state[i] = if encloses { becomes } else { p.state[i] };
+        p.last_t[i] = if encloses { low_t } else { p.last_t[i] };
+        p.last_value[i] = if encloses { low_value } else { p.last_value[i] };
+        p.high_t[i] = if encloses { top_t } else { p.high_t[i] };
+        p.high_value[i] = if encloses { top_value } else { p.high_value[i] };
+        p.t[i] = if encloses { probe } else { t };
+        p.narrowings[i] = narrowings + i64::from(encloses);
     }
-    going
 }

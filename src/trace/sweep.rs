@@ -11,7 +11,7 @@ use super::cut::{Cut, Workshop};
 use super::hierarchy::{BRANCHES, Boxes};
 use super::inclines::{Derivatives, Gradient};
 use super::newton::Newton;
-use super::packet::{Found, Packet, Rules};
+use super::packet::{Found, Load, Packet, Rules};
 use super::part::{Marched, Part, PartKind};
 use super::stages::{Stage, stages};
 use super::stride::Stride;
@@ -265,7 +265,13 @@ impl World {
         let rays = std::mem::take(&mut scratch.rays);
         let packets = rays.len().div_ceil(WIDTH);
         for (k, rays) in rays.chunks(WIDTH).enumerate() {
-            scratch.packets[k].load(&scratch.bundle, rays, &rules);
+            let task = Load {
+                packet: &mut scratch.packets[k],
+                bundle: &scratch.bundle,
+                rays,
+                rules: &rules,
+            };
+            run_at(self.level, task);
         }
         scratch.rays = rays;
         let visit = Visit {

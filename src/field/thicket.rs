@@ -137,6 +137,11 @@ impl Thicket {
         self.leaves.len()
     }
 
+    /// The instructions that its closures were made with.
+    pub fn level(&self) -> Level {
+        self.level
+    }
+
     /// The values of all leaves at 32 points.
     pub fn values(&self, points: &Vec3<F64x32>) -> Vec<F64x32> {
         self.leaves
@@ -147,7 +152,7 @@ impl Thicket {
 
     /// The field at these points, from the [`Thicket::values`] of its leaves.
     pub fn joined(&self, values: &[F64x32]) -> F64x32 {
-        joined(&self.root, values)
+        joined(&self.root, values, self.level)
     }
 
     /// What is left in the balls about the points that `values` were taken at, with these `radii`; `noise` is how much of a
@@ -155,13 +160,13 @@ impl Thicket {
     pub fn sifted(&self, values: &[F64x32], radii: &F64x32, noise: f64) -> Sifted {
         let mut says = vec![u32::MAX; self.leaves.len()];
         let reach = |leaf: usize| {
-            let value = values[leaf];
-            let room = *radii * F64x32::splat(self.leaves[leaf].lipschitz * (1.0 + 1e-9));
-            let room = room + F64x32::splat(noise);
-            Reach {
-                low: value - room,
-                high: value + room,
-            }
+            let around = Around {
+                value: &values[leaf],
+                radii,
+                lipschitz: self.leaves[leaf].lipschitz,
+                noise,
+            };
+            run_at(self.level, around)
         };
         let reach = self.sift(&self.root, &reach, &mut says);
         Sifted { says, reach }
@@ -257,14 +262,62 @@ fn count(branch: &Branch) -> usize {
     }
 }
 
-fn joined(branch: &Branch, values: &[F64x32]) -> F64x32 {
+fn joined(branch: &Branch, values: &[F64x32], level: Level) -> F64x32 {
     match branch {
         Branch::Leaf(number) => values[*number],
         Branch::Join(combination, children) => {
-            let children = children.iter().map(|child| joined(child, values));
-            children
-                .reduce(|a, b| join(combination, a, b))
-                .expect("a combination has children")
+            let (first, rest) = children.split_first().expect("a combination has children");
+            let mut all = joined(first, values, level);
+            for child in rest {
+                let own = joined(child, values, level);
+                run_at(
+                    level,
+                    Joining {
+                        combination,
+                        all: &mut all,
+                        own: &own,
+                    },
+                );
+            }
+            all
+        }
+    }
+}
+
+/// Joins a further child of a combination to those before it.
+struct Joining<'a> {
+    combination: &'a Combination,
+    all: &'a mut F64x32,
+    own: &'a F64x32,
+}
+
+impl Task for Joining<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        *self.all = join(self.combination, *self.all, *self.own);
+    }
+}
+
+/// Finds the values of a leaf in balls of these radii, given those at their centres.
+struct Around<'a> {
+    value: &'a F64x32,
+    radii: &'a F64x32,
+    lipschitz: f64,
+    noise: f64,
+}
+
+impl Task for Around<'_> {
+    type Output = Reach;
+
+    #[inline(always)]
+    fn run(self) -> Reach {
+        let room = *self.radii * F64x32::splat(self.lipschitz * (1.0 + 1e-9));
+        let room = room + F64x32::splat(self.noise);
+        Reach {
+            low: *self.value - room,
+            high: *self.value + room,
         }
     }
 }

@@ -43,6 +43,12 @@ pub(super) mod state {
         state > IDLE && state < ENCLOSING
     }
 
+    /// Whether it has something before it, now or in another stretch.
+    #[inline(always)]
+    pub fn is_walking(state: i64) -> bool {
+        state == FRESH || state == MARCHING || state == ARRIVED
+    }
+
     /// Whether it wants another value.
     #[inline(always)]
     pub fn is_going(state: i64) -> bool {
@@ -220,6 +226,61 @@ impl Task for Load<'_> {
     }
 }
 
+/// Readies the lanes for the stretch from `from` up to `to`; gives whether any lane has a way to go.
+pub(super) struct Proceed<'a> {
+    /// The lanes.
+    pub packet: &'a mut Packet,
+    /// Where the stretch begins.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// The side (1 outside, -1 inside) on which what lies before it is known to be, and free, if that is known.
+    pub before: Option<f64>,
+}
+
+impl Task for Proceed<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(self) -> bool {
+        let p = self.packet;
+        let side = self.before.unwrap_or(0.0);
+        // The samples before a free stretch say nothing any more.
+        let from = if self.before.is_some() {
+            self.from
+        } else {
+            f64::NEG_INFINITY
+        };
+        let mut any = false;
+        for lane in 0..WIDTH {
+            let was = p.state[lane];
+            let walks = state::is_walking(was);
+            let skips = walks && p.t[lane] < from;
+            let t = if skips { from } else { p.t[lane] };
+            let last_t = if skips {
+                f64::NEG_INFINITY
+            } else {
+                p.last_t[lane]
+            };
+            let limit = smaller(self.to, p.end[lane]);
+            let on = if last_t > f64::NEG_INFINITY {
+                state::MARCHING
+            } else {
+                state::FRESH
+            };
+            let becomes = if t > limit { state::ARRIVED } else { on };
+            p.t[lane] = t;
+            p.last_t[lane] = last_t;
+            p.side[lane] = if skips { side } else { p.side[lane] };
+            p.departed[lane] |= i64::from(skips);
+            p.limit[lane] = if walks { limit } else { p.limit[lane] };
+            p.state[lane] = if walks { becomes } else { was };
+            any |= walks && becomes != state::ARRIVED;
+        }
+        any
+    }
+}
+
 /// The numbers of the rays at these places.
 #[inline(always)]
 fn picked(column: &Column, places: &[usize; WIDTH]) -> Lane {
@@ -241,35 +302,6 @@ fn smaller(a: f64, b: f64) -> f64 {
 }
 
 impl Packet {
-    /// Readies the lanes for the stretch from `from` up to `to`. What lies before it is known to be free and on the side
-    /// `before` (1 outside, -1 inside), if that is given. Gives whether any lane has a way to go.
-    pub fn enter(&mut self, from: f64, to: f64, before: Option<f64>) -> bool {
-        let mut any = false;
-        for lane in 0..WIDTH {
-            if !is_walking(self.state[lane]) {
-                continue;
-            }
-            if let Some(side) = before.filter(|_| self.t[lane] < from) {
-                // The samples before the free stretch say nothing any more.
-                self.t[lane] = from;
-                self.side[lane] = side;
-                self.last_t[lane] = f64::NEG_INFINITY;
-                self.departed[lane] = 1;
-            }
-            let limit = to.min(self.end[lane]);
-            self.limit[lane] = limit;
-            self.state[lane] = if self.t[lane] > limit {
-                state::ARRIVED
-            } else if self.has_last(lane) {
-                state::MARCHING
-            } else {
-                state::FRESH
-            };
-            any |= self.state[lane] != state::ARRIVED;
-        }
-        any
-    }
-
     /// Whether a lane has a last sample.
     #[inline(always)]
     pub fn has_last(&self, lane: usize) -> bool {
@@ -299,13 +331,24 @@ impl Packet {
     }
 
     /// The lanes that go on.
-    pub fn going(&self) -> impl Iterator<Item = usize> {
-        (0..WIDTH).filter(|lane| state::is_going(self.state[*lane]))
+    pub fn going(&self) -> impl Iterator<Item = usize> + use<> {
+        self.lanes(state::is_going)
     }
 
     /// The lanes that have come to the end of their stretch.
-    pub fn arrived(&self) -> impl Iterator<Item = usize> {
-        (0..WIDTH).filter(|lane| self.state[*lane] == state::ARRIVED)
+    pub fn arrived(&self) -> impl Iterator<Item = usize> + use<> {
+        self.lanes(|state| state == state::ARRIVED)
+    }
+
+    /// The lanes that are in such a state now.
+    fn lanes(&self, is_such: fn(i64) -> bool) -> impl Iterator<Item = usize> + use<> {
+        let bits = (0..WIDTH).map(|lane| u32::from(is_such(self.state[lane])) << lane);
+        let mut left = bits.fold(0, |all, bit| all | bit);
+        std::iter::from_fn(move || {
+            let first = (left != 0).then(|| left.trailing_zeros() as usize);
+            left &= left.wrapping_sub(1);
+            first
+        })
     }
 
     /// Lets every lane walk by itself.
@@ -380,10 +423,6 @@ fn grid(start: f64, size: f64, rules: &Rules, footprint: f64, spread: f64) -> f6
 fn power_of_two(x: f64) -> f64 {
     let exponent = x.to_bits() & (0x7ff << 52);
     larger(f64::from_bits(exponent), f64::MIN_POSITIVE)
-}
-
-fn is_walking(state: i64) -> bool {
-    matches!(state, state::FRESH | state::MARCHING | state::ARRIVED)
 }
 
 #[inline(always)]

@@ -6,11 +6,14 @@
 )]
 
 use super::beam::Beam;
-use super::bundle::{Bundle, WIDTH};
+use super::bundle::{Bundle, CAPACITY, WIDTH};
 use super::packet::{Lane, Rules};
 use super::part::Marched;
-use crate::field::{Closure, Thicket, Thinned};
+use crate::field::{Closure, Task, Thicket, Thinned, run_at};
 use crate::num::{F64x32, Lanes, Vec3};
+
+/// How many rays are looked at side by side.
+const LANES: usize = 8;
 
 /// Below this many rays it is not worth to thin out a combination.
 const FEW: usize = 8;
@@ -40,22 +43,47 @@ pub(super) fn stages(
         value: marched.value.clone(),
         left: None,
     };
-    let ends = rays.iter().map(|ray| {
-        let ray = *ray as usize;
-        (bundle.enter[ray], bundle.leave[ray])
-    });
-    let (from, to) = ends.fold((f64::INFINITY, 0.0f64), |(a, b), (enter, leave)| {
-        (a.min(enter), b.max(leave))
-    });
     let Some(thicket) = marched.thicket.as_ref() else {
         return vec![whole()];
     };
+    let (from, to) = run_at(thicket.level(), Ends { bundle, rays });
     let is_wide = beam.radius(from) > 0.25 * (to - from);
     if rays.len() < FEW || !to.is_finite() || to <= from || is_wide {
         return vec![whole()];
     }
     let balls = Balls::along(beam, marched, rules, (from, to));
     thinned_stages(thicket, &balls, rules)
+}
+
+/// Where the first of some rays enters the region, and where the last leaves it.
+struct Ends<'a> {
+    bundle: &'a Bundle,
+    rays: &'a [u32],
+}
+
+impl Task for Ends<'_> {
+    type Output = (f64, f64);
+
+    #[inline(always)]
+    fn run(self) -> (f64, f64) {
+        let (mut from, mut to) = ([f64::INFINITY; LANES], [0.0; LANES]);
+        for rays in self.rays.chunks(LANES) {
+            for lane in 0..LANES {
+                let ray = rays[if lane < rays.len() { lane } else { 0 }] as usize % CAPACITY;
+                let (enter, leave) = (self.bundle.enter[ray], self.bundle.leave[ray]);
+                from[lane] = if enter < from[lane] {
+                    enter
+                } else {
+                    from[lane]
+                };
+                to[lane] = if leave > to[lane] { leave } else { to[lane] };
+            }
+        }
+        (
+            from.into_iter().fold(f64::INFINITY, f64::min),
+            to.into_iter().fold(0.0, f64::max),
+        )
+    }
 }
 
 /// Balls one after the other that hold a beam.

@@ -11,7 +11,7 @@ use super::cut::{Cut, Workshop};
 use super::hierarchy::{BRANCHES, Boxes};
 use super::inclines::{Derivatives, Gradient};
 use super::newton::Newton;
-use super::packet::{Found, Load, Packet, Rules};
+use super::packet::{Found, Load, Packet, Proceed, Rules};
 use super::part::{Marched, Part, PartKind};
 use super::stages::{Stage, stages};
 use super::stride::Stride;
@@ -46,6 +46,8 @@ pub(super) struct Scratch {
     candidates: Vec<(f64, u32)>,
     rays: Vec<u32>,
     found: Vec<Found>,
+    /// Where the lanes of the mixed packet come from: packets and lanes.
+    homes: Vec<(usize, usize)>,
     /// Rays with hits whose gradients are still to be found.
     fresh: Vec<u32>,
     shop: Workshop,
@@ -89,6 +91,7 @@ impl World {
                 candidates: Vec::new(),
                 rays: Vec::new(),
                 found: Vec::new(),
+                homes: Vec::new(),
                 fresh: Vec::new(),
                 shop: Workshop::default(),
                 occluder: None,
@@ -353,16 +356,22 @@ impl World {
             );
         };
         let few = if packets > 1 { LAGGARDS } else { 0 };
-        let mut homes: Vec<(usize, usize)> = Vec::new();
+        let mut homes = std::mem::take(&mut scratch.homes);
+        homes.clear();
         let mut is_hit = false;
         scratch.packets[MIXED].clear();
         for k in 0..packets {
-            if !scratch.packets[k].enter(stage.from, stage.to, stage.before) {
+            let task = Proceed {
+                packet: &mut scratch.packets[k],
+                from: stage.from,
+                to: stage.to,
+                before: stage.before,
+            };
+            if !run_at(self.level, task) {
                 continue;
             }
             walk(&mut scratch.packets[k], few);
-            let going: Vec<usize> = scratch.packets[k].going().collect();
-            for from in going {
+            for from in scratch.packets[k].going() {
                 let [packet, mixed] = pair(&mut scratch.packets, k);
                 mixed.adopt(homes.len(), packet, from);
                 homes.push((k, from));
@@ -377,6 +386,7 @@ impl World {
             walk(&mut scratch.packets[MIXED], 0);
             is_hit |= self.disband(visit, &mut homes, scratch);
         }
+        scratch.homes = homes;
         self.incline(visit, stage.left.as_ref(), scratch);
         is_hit
     }
@@ -389,21 +399,21 @@ impl World {
         scratch: &mut Scratch,
     ) -> bool {
         let is_hit = self.settle(visit, MIXED, scratch);
-        let arrived: Vec<usize> = scratch.packets[MIXED].arrived().collect();
-        for lane in arrived {
+        for lane in scratch.packets[MIXED].arrived() {
             let (k, from) = homes[lane];
             let [packet, mixed] = pair(&mut scratch.packets, k);
             packet.adopt(from, mixed, lane);
         }
-        let going: Vec<usize> = scratch.packets[MIXED].going().collect();
         let mixed = &mut scratch.packets[MIXED];
-        for (to, from) in going.iter().enumerate() {
-            homes[to] = homes[*from];
-            if to != *from {
-                mixed.shift(to, *from);
+        let mut left = 0;
+        for from in mixed.going() {
+            homes[left] = homes[from];
+            if left != from {
+                mixed.shift(left, from);
             }
+            left += 1;
         }
-        homes.truncate(going.len());
+        homes.truncate(left);
         is_hit
     }
 

@@ -261,10 +261,10 @@ fn pictures_do_not_depend_on_threads() {
 fn explain_names_the_method_of_the_script() {
     let folder = Folder::new("paths");
     for (method, path) in [("auto", "sphere tracing"), ("bisect", "bisect")] {
-        let script = format!("show torus(1, 0.2)\nrender {{ method: \"{method}\" }}\n");
+        let script = format!("show link()\nrender {{ method: \"{method}\" }}\n");
         folder.write("a.sdf", &script);
         let answer = folder.run(&["explain", "a.sdf"]).expect(0);
-        let line = format!("\n  {path}  torus\n");
+        let line = format!("\n  {path}  link\n");
         assert!(answer.out.contains(&line), "{}", answer.out);
     }
 }

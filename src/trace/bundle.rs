@@ -59,8 +59,8 @@ pub(super) struct Bundle {
     pub enter: Column,
     /// Where they leave it; below the entry for those that miss it.
     pub leave: Column,
-    /// Whether they meet it.
-    meets: [u8; CAPACITY],
+    /// Whether they meet it, or what else was asked last.
+    pub meets: [u8; CAPACITY],
     /// Whether the reciprocals of the directions are there.
     is_inverted: bool,
     /// Whether gradients, doubts and counts are not those of rays that have found nothing.

@@ -152,33 +152,36 @@ pub(super) struct Frame {
 
 impl Frame {
     /// The frame of a map, whose own coordinates are in the outside's lengths.
-    fn new(map: &Similarity) -> Self {
+    pub(super) fn new(map: &Similarity) -> Self {
         Self {
             axes: map.rows.map(|row| DVec3::from_array(row) * map.scale),
             shift: DVec3::from_array(map.shift) * map.scale,
         }
     }
 
+    /// A place in the frame.
     #[inline(always)]
-    fn place(&self, p: DVec3) -> DVec3 {
+    pub(super) fn place(&self, p: DVec3) -> DVec3 {
         self.turned(p) + self.shift
     }
 
+    /// A direction in the frame.
     #[inline(always)]
-    fn turned(&self, v: DVec3) -> DVec3 {
+    pub(super) fn turned(&self, v: DVec3) -> DVec3 {
         let [x, y, z] = self.axes;
         DVec3::new(x.dot(v), y.dot(v), z.dot(v))
     }
 
+    /// A direction of the frame as seen from outside.
     #[inline(always)]
-    fn outside(&self, v: DVec3) -> DVec3 {
+    pub(super) fn outside(&self, v: DVec3) -> DVec3 {
         let [x, y, z] = self.axes;
         x * v.x + y * v.y + z * v.z
     }
 
     /// A bound of the rounding of a place's coordinates, and of others up to `extent`.
     #[inline(always)]
-    fn noise(&self, origin: DVec3, extent: f64) -> f64 {
+    pub(super) fn noise(&self, origin: DVec3, extent: f64) -> f64 {
         let size = origin.abs() + self.shift.abs();
         16.0 * U * (size.x + size.y + size.z + extent)
     }

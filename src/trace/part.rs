@@ -4,13 +4,14 @@ use super::analytic::{Ball, Block, Facet, HalfSpace};
 use super::cut::Cut;
 use super::evidence::Evidence;
 use super::method::{Demands, Reach};
+use super::ring::Ring;
 use crate::catalogue::Modifier;
 use crate::catalogue::{AnyPrimitive, Bounds, Combination, Operation, with_modifier};
 use crate::field::{
     Closure, Level, Thicket, Walked, compile, compile_convex, compile_graph, compile_wide,
 };
 use crate::num::{Dual, F64x32, Interval};
-use crate::scene::{Fault, FieldShape, Graph, Material, Node, Parts, Shadow, Shape};
+use crate::scene::{Fault, FieldShape, Graph, Material, Method, Node, Parts, Shadow, Shape};
 use glam::DVec3;
 use std::sync::{Arc, OnceLock};
 
@@ -24,6 +25,8 @@ pub enum PartKind {
     Block(Block),
     /// A triangle, in closed form.
     Facet(Facet),
+    /// A torus, in closed form.
+    Ring(Box<Ring>, Spare),
     /// Anything else, by its field.
     Marched(Box<Marched>),
 }
@@ -36,6 +39,7 @@ impl PartKind {
             Self::HalfSpace(_) => "analytic plane",
             Self::Block(_) => "analytic box",
             Self::Facet(_) => "analytic triangle",
+            Self::Ring(..) => "analytic torus",
             Self::Marched(m) if m.cut.is_some() => "analytic chords",
             Self::Marched(m) if m.slope.is_some() => "convex: by slope",
             Self::Marched(m) if m.thicket.is_some() => "sphere tracing, thinned out",
@@ -88,6 +92,19 @@ pub struct Slope {
     pub single: Closure<Dual<f64, 1>>,
 }
 
+/// The field of a part in closed form, for rays of which rounding decides; compiled when it is first asked for.
+#[derive(Default)]
+pub struct Spare(OnceLock<Box<Marched>>);
+
+impl Spare {
+    /// The field of `node`, whose constant is finite.
+    pub(super) fn marched(&self, node: &Arc<Node>, method: Method, level: Level) -> &Marched {
+        let field = || Marched::new(node.clone(), Demands::of(method), level);
+        self.0
+            .get_or_init(|| Box::new(field().unwrap_or_else(|fault| panic!("{}", fault.message))))
+    }
+}
+
 /// A part of the world.
 pub struct Part {
     /// How rays find it.
@@ -118,6 +135,7 @@ impl Part {
             PartKind::HalfSpace(_) => Bounds::EVERYWHERE,
             PartKind::Block(block) => widened(block.bounds()),
             PartKind::Facet(facet) => facet.bounds(),
+            PartKind::Ring(..) => widened(node.bounds()),
             PartKind::Marched(marched) => marched.region,
         };
         let materials = materials(&node);
@@ -304,7 +322,7 @@ fn of_field(field: &FieldShape, parts: &[Graph]) -> Option<Vec<Arc<Node>>> {
     parts.iter().map(part).collect()
 }
 
-/// The closed form of a shape that is a sphere, plane, box or triangle under transforms that keep angles.
+/// The closed form of a shape that is a sphere, plane, box, torus or triangle under transforms that keep angles.
 fn entry(node: &Node) -> Option<PartKind> {
     let (map, inner) = node.unplaced();
     let Shape::Primitive(primitive) = inner.shape() else {
@@ -319,6 +337,10 @@ fn entry(node: &Node) -> Option<PartKind> {
                 centre: outside([0.0; 3]),
                 half: 0.5 * DVec3::from_array(b.size),
             }))
+        }
+        AnyPrimitive::Torus(t) if node.lipschitz().is_finite() => {
+            let ring = Box::new(Ring::placed(t, &map)?);
+            Some(PartKind::Ring(ring, Spare::default()))
         }
         AnyPrimitive::Triangle(t) => Some(PartKind::Facet(Facet::new([
             outside(t.a),

@@ -12,7 +12,8 @@ use super::hierarchy::{BRANCHES, Boxes};
 use super::inclines::{Derivatives, Gradient};
 use super::newton::Newton;
 use super::packet::{Found, Load, Packet, Proceed, Rules};
-use super::part::{Marched, Part, PartKind};
+use super::part::{Marched, Part, PartKind, Spare};
+use super::ring::{Near, Ring};
 use super::stages::{Stage, stages};
 use super::stride::Stride;
 use super::world::World;
@@ -208,6 +209,7 @@ impl World {
             PartKind::HalfSpace(form) => self.enter(form, number, any, bundle),
             PartKind::Block(form) => self.enter(form, number, any, bundle),
             PartKind::Facet(form) => self.enter(form, number, any, bundle),
+            PartKind::Ring(ring, spare) => self.ring(ring, spare, number, beam, any, scratch),
             PartKind::Marched(marched) => {
                 bundle.clip(&marched.region, self.level);
                 bundle.meeting(&mut scratch.rays);
@@ -233,6 +235,38 @@ impl World {
             bundle.winners.push(number);
         }
         is_new
+    }
+
+    /// Takes the hits of rays with a torus; those of which rounding decides are walked through its field.
+    fn ring(
+        &self,
+        ring: &Ring,
+        spare: &Spare,
+        number: u32,
+        beam: &Beam,
+        any: bool,
+        scratch: &mut Scratch,
+    ) -> bool {
+        let bundle = &mut *scratch.bundle;
+        if !run_at(self.level, Near { bundle, ring }) {
+            return false;
+        }
+        bundle.mark();
+        let (rays, shop) = (&mut scratch.rays, &mut scratch.shop);
+        bundle.meeting(rays);
+        ring.find(bundle, rays, self.level, shop);
+        let is_hit = take(bundle, shop, number, any);
+        if shop.open.is_empty() {
+            return is_hit;
+        }
+        let node = &self.parts[number as usize].node;
+        let marched = spare.marched(node, self.settings.method, self.level);
+        bundle.clip(&marched.region, self.level);
+        let meets = |ray: &u32| bundle.meets[*ray as usize] != 0;
+        rays.clear();
+        rays.extend(shop.open.drain(..).filter(meets));
+        let is_met = !rays.is_empty() && self.march(marched, number, beam, any, scratch);
+        is_hit | is_met
     }
 
     /// How far the farthest ray of a bundle is still to be followed.
@@ -324,18 +358,7 @@ impl World {
             bundle, rays, shop, ..
         } = scratch;
         cut.find(bundle, rays, beam, self.level, shop);
-        let mut is_hit = false;
-        for found in &shop.found {
-            let ray = found.ray as usize;
-            let crossing = Crossing {
-                t: found.t,
-                error: found.error,
-            };
-            if found.t <= bundle.limit[ray] && bundle.offer(ray, crossing, number, any) {
-                is_hit = true;
-                (0..3).for_each(|axis| bundle.gradient[axis][ray] = found.normal[axis]);
-            }
-        }
+        let is_hit = take(bundle, shop, number, any);
         std::mem::swap(rays, &mut shop.open);
         is_hit
     }
@@ -487,6 +510,23 @@ impl World {
         }
         fresh.clear();
     }
+}
+
+/// Offers what rays found in closed form to them, with the normals; gives whether any took it.
+fn take(bundle: &mut Bundle, shop: &Workshop, number: u32, any: bool) -> bool {
+    let mut is_hit = false;
+    for found in &shop.found {
+        let ray = found.ray as usize;
+        let crossing = Crossing {
+            t: found.t,
+            error: found.error,
+        };
+        if found.t <= bundle.limit[ray] && bundle.offer(ray, crossing, number, any) {
+            is_hit = true;
+            (0..3).for_each(|axis| bundle.gradient[axis][ray] = found.normal[axis]);
+        }
+    }
+    is_hit
 }
 
 /// Packet `k` and the mixed one.

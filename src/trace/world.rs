@@ -409,7 +409,8 @@ impl World {
                 PartKind::HalfSpace(plane) => bundle.turn(plane, number, self.level),
                 PartKind::Block(block) => bundle.turn(block, number, self.level),
                 PartKind::Facet(facet) => bundle.turn(facet, number, self.level),
-                PartKind::Marched(_) => {}
+                // Their normals are found with the hits.
+                PartKind::Ring(..) | PartKind::Marched(_) => {}
             }
         }
         let n = numbers.len();
@@ -447,6 +448,7 @@ impl World {
             PartKind::HalfSpace(plane) => plane.normal,
             PartKind::Block(block) => block.normal(hit.point),
             PartKind::Facet(facet) => facet.normal,
+            PartKind::Ring(ring, _) => ring.normal(hit.point),
         }
     }
 }

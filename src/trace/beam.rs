@@ -60,40 +60,7 @@ impl Task for Enters<'_> {
 
     #[inline(always)]
     fn run(self) -> Eight {
-        let (mut enter, mut leave) = ([0.0; BRANCHES], [self.limit; BRANCHES]);
-        for axis in 0..3 {
-            let (low, high) = (&self.boxes.low[axis], &self.boxes.high[axis]);
-            let [first, last] = self.beam.origins.map(|end| end[axis]);
-            let Pace { rise, fall } = self.beam.paces[axis];
-            // Rays that rise come in at `low` and leave at `high`, rays that fall the other way round.
-            for k in 0..BRANCHES {
-                let up = (low[k] - last) * rise[0];
-                let down = (first - high[k]) * fall[0];
-                enter[k] = larger(up * (1.0 - 1e-12), enter[k]);
-                enter[k] = larger(down * (1.0 - 1e-12), enter[k]);
-            }
-            if rise[1] < f64::INFINITY {
-                for k in 0..BRANCHES {
-                    let way = high[k] - first;
-                    let far = larger(way * rise[0], way * rise[1]);
-                    leave[k] = lesser(far * (1.0 + 1e-12), leave[k]);
-                }
-            } else if fall[1] < f64::INFINITY {
-                for k in 0..BRANCHES {
-                    let way = last - low[k];
-                    let far = larger(way * fall[0], way * fall[1]);
-                    leave[k] = lesser(far * (1.0 + 1e-12), leave[k]);
-                }
-            }
-        }
-        for k in 0..BRANCHES {
-            enter[k] = if enter[k] <= leave[k] {
-                enter[k]
-            } else {
-                f64::INFINITY
-            };
-        }
-        enter
+        self.beam.entered(self.boxes, self.limit)
     }
 }
 
@@ -147,6 +114,45 @@ impl Beam {
     pub fn enters(&self, boxes: &Boxes, limit: f64, level: Level) -> Eight {
         let beam = self;
         run_at(level, Enters { beam, boxes, limit })
+    }
+
+    /// As [`Beam::enters`], within a task.
+    #[inline(always)]
+    pub fn entered(&self, boxes: &Boxes, limit: f64) -> Eight {
+        let (mut enter, mut leave) = ([0.0; BRANCHES], [limit; BRANCHES]);
+        for axis in 0..3 {
+            let (low, high) = (&boxes.low[axis], &boxes.high[axis]);
+            let [first, last] = self.origins.map(|end| end[axis]);
+            let Pace { rise, fall } = self.paces[axis];
+            // Rays that rise come in at `low` and leave at `high`, rays that fall the other way round.
+            for k in 0..BRANCHES {
+                let up = (low[k] - last) * rise[0];
+                let down = (first - high[k]) * fall[0];
+                enter[k] = larger(up * (1.0 - 1e-12), enter[k]);
+                enter[k] = larger(down * (1.0 - 1e-12), enter[k]);
+            }
+            if rise[1] < f64::INFINITY {
+                for k in 0..BRANCHES {
+                    let way = high[k] - first;
+                    let far = larger(way * rise[0], way * rise[1]);
+                    leave[k] = lesser(far * (1.0 + 1e-12), leave[k]);
+                }
+            } else if fall[1] < f64::INFINITY {
+                for k in 0..BRANCHES {
+                    let way = last - low[k];
+                    let far = larger(way * fall[0], way * fall[1]);
+                    leave[k] = lesser(far * (1.0 + 1e-12), leave[k]);
+                }
+            }
+        }
+        for k in 0..BRANCHES {
+            enter[k] = if enter[k] <= leave[k] {
+                enter[k]
+            } else {
+                f64::INFINITY
+            };
+        }
+        enter
     }
 
     /// A ball that holds every place of the rays from distance `from` to `to`.

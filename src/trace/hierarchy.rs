@@ -45,23 +45,19 @@ impl Boxes {
     }
 }
 
-/// What is in a box.
-#[derive(Clone, Copy, Debug)]
-enum Inside {
-    /// Nothing: there is no box.
-    Nothing,
-    /// A part.
-    Part(u32),
-    /// A node.
-    Node(u32),
-}
-
 /// A part's number and its box.
 type Item = (u32, Bounds);
 
-struct Node {
-    boxes: Boxes,
-    inside: [Inside; BRANCHES],
+/// A node: boxes around parts, or around nodes.
+pub(super) struct Node {
+    /// The boxes.
+    pub boxes: Boxes,
+    /// The number of the part, or the node, in each of them.
+    pub inside: [u32; BRANCHES],
+    /// How many there are.
+    pub count: usize,
+    /// Whether they hold parts.
+    pub has_parts: bool,
 }
 
 /// The hierarchy.
@@ -86,16 +82,31 @@ impl Hierarchy {
         hierarchy
     }
 
+    /// The root's number; none where there is nothing.
+    pub fn root(&self) -> Option<u32> {
+        (!self.nodes.is_empty()).then_some(0)
+    }
+
+    /// A node by its number.
+    pub fn node(&self, number: u32) -> &Node {
+        &self.nodes[number as usize]
+    }
+
     /// Adds a node over these parts; gives its number.
     fn build(&mut self, items: &mut [Item]) -> u32 {
         let here = self.nodes.len();
+        // As many as a branch can hold below which every node is full.
+        let mut room = 1;
+        while BRANCHES * room < items.len() {
+            room *= BRANCHES;
+        }
         let mut groups = vec![items];
-        // The largest is halved until there are as many as boxes.
+        // The largest is halved until there are as many as boxes, or all are small enough.
         while groups.len() < BRANCHES {
             let largest = (0..groups.len())
                 .max_by_key(|k| groups[*k].len())
                 .unwrap_or(0);
-            if groups[largest].len() < 2 {
+            if groups[largest].len() <= room {
                 break;
             }
             let halves = halved(groups.swap_remove(largest));
@@ -107,12 +118,15 @@ impl Hierarchy {
         });
         self.nodes.push(Node {
             boxes: Boxes::new(hulls),
-            inside: [Inside::Nothing; BRANCHES],
+            inside: [0; BRANCHES],
+            count: groups.len(),
+            has_parts: room == 1,
         });
         for (k, group) in groups.into_iter().enumerate() {
-            self.nodes[here].inside[k] = match group {
-                [(part, _)] => Inside::Part(*part),
-                more => Inside::Node(self.build(more)),
+            self.nodes[here].inside[k] = if room == 1 {
+                group[0].0
+            } else {
+                self.build(group)
             };
         }
         here as u32
@@ -122,16 +136,18 @@ impl Hierarchy {
     /// is entered, infinite if it is not.
     pub fn visit(&self, enters: impl Fn(&Boxes) -> Eight, mut visit: impl FnMut(u32, f64)) {
         let mut open: Vec<u32> = Vec::with_capacity(64);
-        open.extend((!self.nodes.is_empty()).then_some(0));
+        open.extend(self.root());
         while let Some(number) = open.pop() {
-            let node = &self.nodes[number as usize];
+            let node = self.node(number);
             let entered = enters(&node.boxes);
-            for (inside, enter) in node.inside.iter().zip(entered) {
-                match inside {
-                    _ if enter == f64::INFINITY => {}
-                    Inside::Nothing => {}
-                    Inside::Part(part) => visit(*part, enter),
-                    Inside::Node(child) => open.push(*child),
+            for (inside, enter) in node.inside.iter().zip(entered).take(node.count) {
+                if enter == f64::INFINITY {
+                    continue;
+                }
+                if node.has_parts {
+                    visit(*inside, enter);
+                } else {
+                    open.push(*inside);
                 }
             }
         }

@@ -10,6 +10,7 @@ mod beam;
 mod bundle;
 mod chord;
 mod cut;
+mod descent;
 mod evidence;
 mod fan;
 mod finding;

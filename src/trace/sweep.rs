@@ -8,7 +8,7 @@ use super::analytic::{ClosedForm, Crossing};
 use super::beam::Beam;
 use super::bundle::{Bundle, CAPACITY, Enter, Farthest, WIDTH};
 use super::cut::{Cut, Workshop};
-use super::hierarchy::{BRANCHES, Boxes};
+use super::descent::{Descent, Step};
 use super::inclines::{Derivatives, Gradient};
 use super::newton::Newton;
 use super::packet::{Found, Load, Packet, Proceed, Rules};
@@ -20,6 +20,7 @@ use super::world::World;
 use super::{Rays, Verdict};
 use crate::field::{Thinned, run_at};
 use std::cell::Cell;
+use std::ops::Range;
 
 /// A bundle whose beam meets more parts than this is divided.
 const CROWD: usize = 24;
@@ -27,8 +28,8 @@ const CROWD: usize = 24;
 /// The same for what fits into one packet.
 const SMALL_CROWD: usize = 64;
 
-/// Lists of parts up to this length are gone through again when a bundle is divided.
-const SHORT: usize = 256;
+/// A bundle whose beam meets more nodes and parts than this on one level of the hierarchy is divided there.
+const THRONG: usize = 64;
 
 /// A beam that starts wider than this share of a combination is divided, so that thinning it out is of use.
 const TOO_WIDE: f64 = 0.1;
@@ -44,7 +45,11 @@ pub(super) struct Scratch {
     bundle: Box<Bundle>,
     /// Those of a bundle, and one more in which lanes are put together.
     packets: Vec<Box<Packet>>,
-    candidates: Vec<(f64, u32)>,
+    descent: Descent,
+    /// The nodes from which the halves of divided bundles go down, those of the innermost last.
+    entries: Vec<u32>,
+    /// Rays that are put aside while a bundle is divided.
+    aside: Vec<u32>,
     rays: Vec<u32>,
     found: Vec<Found>,
     /// Where the lanes of the mixed packet come from: packets and lanes.
@@ -89,7 +94,9 @@ impl World {
             Box::new(Scratch {
                 bundle: Bundle::new(),
                 packets: (0..=MIXED).map(|_| Box::default()).collect(),
-                candidates: Vec::new(),
+                descent: Descent::default(),
+                entries: Vec::new(),
+                aside: Vec::new(),
                 rays: Vec::new(),
                 found: Vec::new(),
                 homes: Vec::new(),
@@ -100,18 +107,21 @@ impl World {
         });
         scratch.occluder = None;
         let mut numbers: Vec<u32> = (0..rays.len() as u32).collect();
+        scratch.entries.clear();
+        scratch.entries.extend(self.hierarchy.root());
+        let known = 0..scratch.entries.len();
         for numbers in numbers.chunks_mut(CAPACITY) {
-            self.sweep_bundle(rays, numbers, None, question, &mut scratch, answer);
+            self.sweep_bundle(rays, numbers, known.clone(), question, &mut scratch, answer);
         }
         SCRATCH.with(|cell| cell.set(Some(scratch)));
     }
 
-    /// The sweep of the rays with these numbers, which can meet only the parts `known`, if these are given.
+    /// The sweep of the rays with these numbers, which can meet only what lies below the `known` entries, and what has no end.
     fn sweep_bundle(
         &self,
         rays: &Rays,
         numbers: &mut [u32],
-        known: Option<&[(f64, u32)]>,
+        known: Range<usize>,
         question: &Question,
         scratch: &mut Scratch,
         answer: &mut dyn FnMut(&mut Bundle, &[u32]),
@@ -119,45 +129,39 @@ impl World {
         scratch.bundle.fill(rays, numbers);
         let beam = Beam::around(&scratch.bundle, self.level);
         let limit = self.farthest(&scratch.bundle);
-        match known {
-            Some(known) => {
-                scratch.candidates.clear();
-                for some in known.chunks(BRANCHES) {
-                    let bounds = some.iter().map(|(_, n)| self.parts[*n as usize].bounds);
-                    let entered = beam.enters(&Boxes::new(bounds), limit, self.level);
-                    let still = some.iter().zip(entered).filter(|(_, t)| *t < f64::INFINITY);
-                    scratch.candidates.extend(still.map(|((_, n), t)| (t, *n)));
-                }
-            }
-            None => self.meet(&beam, limit, question, &mut scratch.candidates),
-        }
-        if self.is_crowd(&beam, numbers.len(), &scratch.candidates) {
-            let is_first = beam.divide(self.horizon, rays);
-            numbers.sort_by_key(|number| !is_first(number));
-            let half = numbers.partition_point(&is_first);
+        let most = if numbers.len() > 1 {
+            THRONG
+        } else {
+            usize::MAX
+        };
+        let is_down = self.meet(&beam, limit, known.clone(), most, question, scratch);
+        if !is_down || self.is_crowd(&beam, numbers.len(), &scratch.descent.met) {
+            let half = divide(numbers, beam.divide(self.horizon, rays), &mut scratch.aside);
             if half > 0 && half < numbers.len() {
                 let (first, second) = numbers.split_at_mut(half);
-                // What the halves meet is among few parts; of many, the hierarchy finds it sooner.
-                let is_short = scratch.candidates.len() <= SHORT;
-                let met = is_short.then(|| scratch.candidates.clone());
-                let known = met.as_deref();
-                self.sweep_bundle(rays, first, known, question, scratch, answer);
+                let from = scratch.entries.len();
+                scratch.entries.extend(scratch.descent.nodes());
+                let known = from..scratch.entries.len();
+                self.sweep_bundle(rays, first, known.clone(), question, scratch, answer);
                 self.sweep_bundle(rays, second, known, question, scratch, answer);
+                scratch.entries.truncate(from);
                 return;
+            }
+            if !is_down {
+                self.meet(&beam, limit, known, usize::MAX, question, scratch);
             }
         }
         // What blocked rays of this sweep before is asked first.
         let last = scratch.occluder.filter(|_| question.any);
         let same = |(_, number): &&mut (f64, u32)| Some(*number) == last;
-        if let Some((enter, _)) = scratch.candidates.iter_mut().find(same) {
+        let met = &mut scratch.descent.met;
+        if let Some((enter, _)) = met.iter_mut().find(same) {
             *enter = -1.0;
         }
-        scratch
-            .candidates
-            .sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        met.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut farthest = limit;
-        for k in 0..scratch.candidates.len() {
-            let (enter, number) = scratch.candidates[k];
+        for k in 0..scratch.descent.met.len() {
+            let (enter, number) = scratch.descent.met[k];
             if enter > farthest {
                 break;
             }
@@ -183,22 +187,34 @@ impl World {
             || rays > WIDTH && candidates.iter().any(|(_, number)| is_too_wide(*number))
     }
 
-    /// Collects the parts that a beam may meet before `limit`, with where.
-    fn meet(&self, beam: &Beam, limit: f64, question: &Question, met: &mut Vec<(f64, u32)>) {
-        met.clear();
+    /// Collects the parts that a beam may meet before `limit`, with where, below the `known` entries; stops where it meets more
+    /// than `most`. Gives whether it came to an end.
+    fn meet(
+        &self,
+        beam: &Beam,
+        limit: f64,
+        known: Range<usize>,
+        most: usize,
+        question: &Question,
+        scratch: &mut Scratch,
+    ) -> bool {
+        let step = Step {
+            hierarchy: &self.hierarchy,
+            beam,
+            limit,
+            level: self.level,
+        };
+        let Scratch {
+            descent, entries, ..
+        } = scratch;
+        let nodes = entries[known].iter().copied();
+        if !descent.go(&step, nodes, most) {
+            return false;
+        }
+        descent.met.extend(self.endless.iter().map(|n| (0.0, *n)));
         let is_seen = |number: u32| (question.is_seen)(&self.parts[number as usize]);
-        met.extend(
-            self.endless
-                .iter()
-                .filter(|n| is_seen(**n))
-                .map(|n| (0.0, *n)),
-        );
-        let enters = |boxes: &Boxes| beam.enters(boxes, limit, self.level);
-        self.hierarchy.visit(enters, |number, enter| {
-            if is_seen(number) {
-                met.push((enter, number));
-            }
-        });
+        descent.met.retain(|(_, number)| is_seen(*number));
+        true
     }
 
     /// Asks one part of all rays of the bundle; gives whether any found something.
@@ -527,6 +543,23 @@ fn take(bundle: &mut Bundle, shop: &Workshop, number: u32, any: bool) -> bool {
         }
     }
     is_hit
+}
+
+/// Brings the numbers that come first to the front; gives how many there are. Those of either kind stay in order.
+fn divide(numbers: &mut [u32], is_first: impl Fn(&u32) -> bool, aside: &mut Vec<u32>) -> usize {
+    aside.clear();
+    let mut half = 0;
+    for i in 0..numbers.len() {
+        let number = numbers[i];
+        if is_first(&number) {
+            numbers[half] = number;
+            half += 1;
+        } else {
+            aside.push(number);
+        }
+    }
+    numbers[half..].copy_from_slice(aside);
+    half
 }
 
 /// Packet `k` and the mixed one.

@@ -26,11 +26,13 @@ fn combined(operation: Operation, children: Vec<Arc<Node>>) -> Arc<Node> {
 /// A solid with a closed form, turned, scaled and moved.
 fn leaf(seed: u64) -> Arc<Node> {
     let x = |k: u64| number(seed, k);
-    let primitive = match seed % 7 {
+    let primitive = match seed % 9 {
         0 | 1 => AnyPrimitive::Sphere(Sphere::new(0.2 + 0.6 * x(0))),
         2 | 3 => AnyPrimitive::Cuboid(Cuboid::new([0.4 + x(0), 0.4 + x(1), 0.4 + x(2)], 0.0)),
         4 => AnyPrimitive::Cylinder(Cylinder::new(0.1 + 0.4 * x(0), 0.4 + x(1), 0.0)),
         5 => AnyPrimitive::Cylinder(Cylinder::new(0.1 + 0.3 * x(0), f64::INFINITY, 0.0)),
+        6 => AnyPrimitive::Capsule(Capsule::new(0.1 + 0.3 * x(0), 0.85 + x(1))),
+        7 => AnyPrimitive::Ellipsoid(Ellipsoid::new([0, 1, 2].map(|k| 0.1 + 0.6 * x(k)))),
         _ => AnyPrimitive::Plane(Plane::new([x(0) - 0.5, x(1) - 0.5, 0.7], x(2) - 0.2)),
     };
     let axis = [x(11) - 0.5, x(12) - 0.5, 0.3];
@@ -222,6 +224,32 @@ fn rays_along_faces_are_not_lost() {
                 assert_eq!(auto.verdict, Verdict::Miss, "{what}");
             } else if reference.verdict != Verdict::Unknown {
                 assert_eq!(auto.verdict, reference.verdict, "{what}");
+            }
+        }
+    }
+}
+
+#[test]
+fn rays_from_the_very_middle_leave_what_is_around_them() {
+    let node = |primitive: AnyPrimitive| Node::primitive(primitive).expect("a valid primitive");
+    let room = || node(AnyPrimitive::Cuboid(Cuboid::new([4.0; 3], 0.0)));
+    let hollows = [
+        (AnyPrimitive::Sphere(Sphere::new(0.5)), 0.5),
+        (AnyPrimitive::Cylinder(Cylinder::new(0.25, 3.0, 0.0)), 0.25),
+        (AnyPrimitive::Capsule(Capsule::new(0.75, 3.0)), 0.75),
+        (
+            AnyPrimitive::Ellipsoid(Ellipsoid::new([0.5, 1.0, 0.5])),
+            0.5,
+        ),
+    ];
+    for (hollow, radius) in hollows {
+        for operation in [Operation::Difference, Operation::Intersection] {
+            let both = combined(operation, vec![room(), node(hollow.clone())]);
+            for direction in [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]] {
+                let out = found(&both, Method::Auto, &[ray([0.0; 3], direction)])[0];
+                let what = format!("{operation:?}, {radius}, {direction:?}: {out:?}");
+                assert_eq!(out.verdict, Verdict::Hit, "{what}");
+                assert!((out.t - radius).abs() < 1e-14, "{what}");
             }
         }
     }

@@ -145,8 +145,10 @@ pub(super) fn chord_ends(along: f64, half_chord: f64, radius: f64, length: f64) 
     let large = -along - half_chord.copysign(along);
     let product = (length - radius) * (length + radius);
     let small = if large == 0.0 { 0.0 } else { product / large };
-    let near = if along > 0.0 { large } else { small };
-    let far = if along > 0.0 { small } else { large };
+    // Not by the sign of `along`, which zero does not have.
+    let is_near = large < 0.0;
+    let near = if is_near { large } else { small };
+    let far = if is_near { small } else { large };
     (near, far)
 }
 

@@ -69,6 +69,43 @@ impl Chord {
         ];
         Self::between(enter, leave, errors, a.is_doubtful | b.is_doubtful)
     }
+
+    /// The stretch in two solids that are convex together, of which each has a stretch or none.
+    #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        let (a, b) = (self, other);
+        let leave = |chord: &Self| {
+            if chord.enter < f64::INFINITY {
+                chord.leave
+            } else {
+                f64::NEG_INFINITY
+            }
+        };
+        let (left, right) = (leave(&a), leave(&b));
+        let is_first = a.enter < b.enter;
+        let is_last = left > right;
+        let larger = |k: usize| {
+            if a.errors[k] > b.errors[k] {
+                a.errors[k]
+            } else {
+                b.errors[k]
+            }
+        };
+        let error = |k: usize, is_own: bool, is_close: bool| {
+            let own = if is_own { a.errors[k] } else { b.errors[k] };
+            if is_close { larger(k) } else { own }
+        };
+        let is_close = |gap: f64, k: usize| gap.abs() <= a.errors[k] + b.errors[k];
+        Self {
+            enter: if is_first { a.enter } else { b.enter },
+            leave: if is_last { left } else { right },
+            errors: [
+                error(0, is_first, is_close(a.enter - b.enter, 0)),
+                error(1, is_last, is_close(left - right, 1)),
+            ],
+            is_doubtful: a.is_doubtful | b.is_doubtful,
+        }
+    }
 }
 
 /// A convex solid.
@@ -227,13 +264,13 @@ pub(super) struct Bar {
     half: f64,
 }
 
-impl Solid for Bar {
+impl Bar {
+    /// The stretch of a line in the bar without its ends, given in the bar's coordinates, with their rounding.
+    ///
     /// The geometric form with a discriminant that does not cancel, as of the sphere, across the axis. Source: Haines et
     /// al., Ray Tracing Gems chapter 7.
     #[inline(always)]
-    fn chord(&self, origin: DVec3, direction: DVec3) -> Chord {
-        let (o, d) = (self.frame.place(origin), self.frame.turned(direction));
-        let noise = self.frame.noise(origin, self.radius);
+    fn endless(&self, o: DVec3, d: DVec3, noise: f64) -> Chord {
         let run = (d.x * d.x + d.z * d.z).sqrt();
         let is_along = run < 1e-12;
         let scale = 1.0 / if is_along { 1.0 } else { run };
@@ -265,12 +302,21 @@ impl Solid for Bar {
         };
         let rounding = error + 4.0 * U * (far * scale).abs();
         let error = if is_along | !is_met { 0.0 } else { rounding };
-        let round = Chord::between(
+        Chord::between(
             if is_along { around } else { crossed },
             if is_along { f64::INFINITY } else { left },
             [error; 2],
             (is_along | !is_met) & (gap <= noise),
-        );
+        )
+    }
+}
+
+impl Solid for Bar {
+    #[inline(always)]
+    fn chord(&self, origin: DVec3, direction: DVec3) -> Chord {
+        let (o, d) = (self.frame.place(origin), self.frame.turned(direction));
+        let noise = self.frame.noise(origin, self.radius);
+        let round = self.endless(o, d, noise);
         let ends = slab(o.y, d.y, self.half, noise + 4.0 * U * self.half);
         let both = round.and(ends);
         let has_ends = self.half < f64::INFINITY;
@@ -303,6 +349,88 @@ impl Solid for Bar {
     }
 }
 
+/// A round bar with half balls as ends, in any orientation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Pill {
+    /// The part between the balls.
+    bar: Bar,
+    /// The balls.
+    ends: [Ball; 2],
+}
+
+impl Solid for Pill {
+    /// The bar between the balls, and both of them: where one ends within another does not matter.
+    #[inline(always)]
+    fn chord(&self, origin: DVec3, direction: DVec3) -> Chord {
+        let [low, high] = &self.ends;
+        let ends = low.chord(origin, direction);
+        let ends = ends.or(high.chord(origin, direction));
+        let bar = self.bar.chord(origin, direction);
+        bar.or(ends)
+    }
+
+    #[inline(always)]
+    fn normal(&self, p: DVec3) -> DVec3 {
+        let Bar { frame, half, .. } = &self.bar;
+        let q = frame.place(p);
+        // The nearest point of the axis between the centres of the balls.
+        let low = if q.y < -half { -half } else { q.y };
+        let middle = DVec3::new(0.0, if low > *half { *half } else { low }, 0.0);
+        frame.outside(unit_or(q - middle, DVec3::ZERO))
+    }
+}
+
+/// An ellipsoid in any orientation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Oval {
+    frame: Frame,
+    /// The reciprocals of the semi-axes.
+    inverse: DVec3,
+    /// The longest semi-axis.
+    reach: f64,
+    /// The reciprocal of the shortest.
+    steepness: f64,
+}
+
+impl Solid for Oval {
+    /// As of the unit ball, in coordinates in which it is one.
+    #[inline(always)]
+    fn chord(&self, origin: DVec3, direction: DVec3) -> Chord {
+        let o = self.frame.place(origin) * self.inverse;
+        let d = self.frame.turned(direction) * self.inverse;
+        let scale = 1.0 / d.length();
+        let unit = Ball {
+            centre: DVec3::ZERO,
+            radius: 1.0,
+        };
+        let d = d * scale;
+        let (near, far, half_chord) = unit.roots(o, d);
+        let place = self.frame.noise(origin, self.reach) * self.steepness + 16.0 * U * o.length();
+        let error = chord_error(1.0, half_chord, place) * scale;
+        let is_met = half_chord >= 0.0;
+        let gap = (o - d * o.dot(d)).length() - 1.0;
+        let is_close = !is_met & (gap <= 2.0 * place);
+        let (near, far) = (near * scale, far * scale);
+        let enter = if is_met { near } else { f64::INFINITY };
+        let leave = if is_met { far } else { f64::NEG_INFINITY };
+        let errors = [near, far].map(|t| {
+            if is_met {
+                error + 4.0 * U * t.abs()
+            } else {
+                0.0
+            }
+        });
+        Chord::between(enter, leave, errors, is_close)
+    }
+
+    #[inline(always)]
+    fn normal(&self, p: DVec3) -> DVec3 {
+        let q = self.frame.place(p);
+        let normal = (q * self.inverse) * self.inverse;
+        self.frame.outside(unit_or(normal, DVec3::ZERO))
+    }
+}
+
 /// A convex solid with a closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Convex {
@@ -310,6 +438,8 @@ pub(super) enum Convex {
     HalfSpace(HalfSpace),
     Brick(Brick),
     Bar(Bar),
+    Pill(Pill),
+    Oval(Oval),
 }
 
 /// Evaluates an expression in which the solid inside is bound to a name.
@@ -320,6 +450,8 @@ macro_rules! with_solid {
             $crate::trace::chord::Convex::HalfSpace($bound) => $body,
             $crate::trace::chord::Convex::Brick($bound) => $body,
             $crate::trace::chord::Convex::Bar($bound) => $body,
+            $crate::trace::chord::Convex::Pill($bound) => $body,
+            $crate::trace::chord::Convex::Oval($bound) => $body,
         }
     };
 }
@@ -341,6 +473,35 @@ impl Convex {
                 radius: c.radius * map.scale,
                 half: 0.5 * c.height * map.scale,
             }),
+            AnyPrimitive::Capsule(c) => {
+                let straight = 0.5 * c.height - c.radius;
+                let radius = c.radius * map.scale;
+                // What is hardly longer than a ball has hardly a middle.
+                if straight < 1e-3 * c.radius {
+                    return None;
+                }
+                let end = |y: f64| Ball {
+                    centre: DVec3::from_array(map.outside([0.0, y, 0.0])),
+                    radius,
+                };
+                Self::Pill(Pill {
+                    bar: Bar {
+                        frame,
+                        radius,
+                        half: straight * map.scale,
+                    },
+                    ends: [end(-straight), end(straight)],
+                })
+            }
+            AnyPrimitive::Ellipsoid(e) => {
+                let radii = DVec3::from_array(e.radii) * map.scale;
+                Self::Oval(Oval {
+                    frame,
+                    inverse: radii.recip(),
+                    reach: radii.max_element(),
+                    steepness: 1.0 / radii.min_element(),
+                })
+            }
             _ => return None,
         };
         Some(solid)
@@ -351,7 +512,7 @@ impl Convex {
 mod tests {
     use super::*;
     use crate::catalogue::{
-        AnyModifier, Cuboid, Cylinder, Plane, Rotate, Scale, Sphere, Translate,
+        AnyModifier, Capsule, Cuboid, Cylinder, Ellipsoid, Plane, Rotate, Scale, Sphere, Translate,
     };
     use crate::num::Vec3;
     use crate::num::samples::random;
@@ -361,11 +522,13 @@ mod tests {
     /// A leaf of some kind, turned, scaled and moved.
     fn leaf(seed: u64) -> Arc<Node> {
         let x = |k: u64| random(seed * 64 + k);
-        let primitive = match seed % 5 {
+        let primitive = match seed % 7 {
             0 => AnyPrimitive::Sphere(Sphere::new(0.2 + x(0))),
             1 => AnyPrimitive::Cuboid(Cuboid::new([0.2 + x(0), 0.2 + x(1), 0.2 + x(2)], 0.0)),
             2 => AnyPrimitive::Cylinder(Cylinder::new(0.2 + x(0), 0.3 + x(1), 0.0)),
             3 => AnyPrimitive::Cylinder(Cylinder::new(0.2 + x(0), f64::INFINITY, 0.0)),
+            4 => AnyPrimitive::Capsule(Capsule::new(0.2 + 0.5 * x(0), 1.5 + x(1))),
+            5 => AnyPrimitive::Ellipsoid(Ellipsoid::new([0.2 + x(0), 0.2 + x(1), 0.2 + x(2)])),
             _ => AnyPrimitive::Plane(Plane::new([x(0) - 0.5, x(1) - 0.5, 1.0], x(2) - 0.5)),
         };
         let turn = AnyModifier::Rotate(Rotate::new(

@@ -64,7 +64,7 @@ struct Chords {
 }
 
 /// 32 rays: their origins and directions, by axis.
-type Lines = [Lane; 6];
+pub(super) type Lines = [Lane; 6];
 
 /// No leaf.
 const NONE: u64 = u64::MAX;
@@ -268,7 +268,8 @@ impl Verge {
 }
 
 /// The rays of a bundle with these numbers.
-fn lines(bundle: &Bundle, rays: &[u32]) -> Lines {
+#[inline(always)]
+pub(super) fn lines(bundle: &Bundle, rays: &[u32]) -> Lines {
     let mut lines = [[0.0; WIDTH]; 6];
     let columns = bundle.origin.iter().chain(&bundle.direction);
     for (line, column) in lines.iter_mut().zip(columns) {

@@ -22,7 +22,7 @@
 use super::analytic::{Ball, ClosedForm, U};
 use super::bundle::{Bundle, CAPACITY, WIDTH, larger, lesser, place};
 use super::chord::Frame;
-use super::cut::{Found, Workshop};
+use super::cut::{Found, Workshop, lines};
 use super::packet::Lane;
 use super::quartic::{Quartics, state};
 use crate::catalogue::{Similarity, Torus};
@@ -256,26 +256,19 @@ struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
-    /// The rays, in the scene's coordinates; lanes without a ray repeat the first.
+    /// The rays, in the scene's coordinates.
     #[inline(always)]
     fn of(cross: &Cross<'a>) -> Self {
-        let (zero, rays) = ([0.0; WIDTH], cross.rays);
-        let mut lines = Self {
+        let zero = [0.0; WIDTH];
+        let [a, b, c, d, e, f] = lines(cross.bundle, cross.rays);
+        Self {
             ring: cross.ring,
-            origin: [zero; 3],
-            direction: [zero; 3],
+            origin: [a, b, c],
+            direction: [d, e, f],
             start: zero,
             noise: zero,
             is_within: [0; WIDTH],
-        };
-        for lane in 0..WIDTH {
-            let ray = rays[if lane < rays.len() { lane } else { 0 }] as usize;
-            for axis in 0..3 {
-                lines.origin[axis][lane] = cross.bundle.origin[axis][ray];
-                lines.direction[axis][lane] = cross.bundle.direction[axis][ray];
-            }
         }
-        lines
     }
 
     #[inline(always)]

@@ -2,21 +2,15 @@
 //! but fields.
 
 mod rays;
+mod solids;
 
 use fieldstone::catalogue::*;
-use fieldstone::scene::{Method, Node, Settings};
-use fieldstone::trace::{Outcome, Ray, Verdict, Visibility, World};
+use fieldstone::scene::{Method, Node};
+use fieldstone::trace::{Outcome, Ray, Verdict};
 use glam::DVec3;
-use rays::{aimed, random, ray};
+use rays::{aimed, ray};
+use solids::{found, modified, number};
 use std::sync::Arc;
-
-fn number(seed: u64, k: u64) -> f64 {
-    random(seed.wrapping_mul(1_000_003).wrapping_add(k))
-}
-
-fn modified(modifier: AnyModifier, child: Arc<Node>) -> Arc<Node> {
-    Node::modifier(modifier, child).expect("a valid modifier")
-}
 
 fn combined(operation: Operation, children: Vec<Arc<Node>>) -> Arc<Node> {
     let blend = AnyBlend::Hard(Hard::new());
@@ -91,15 +85,6 @@ fn rays(seed: u64) -> Vec<Ray> {
     let mut rays = aimed(48, seed << 20);
     rays.extend((0..16).map(inside));
     rays
-}
-
-fn found(node: &Arc<Node>, method: Method, rays: &[Ray]) -> Vec<Outcome> {
-    let settings = Settings {
-        method,
-        ..Settings::default()
-    };
-    let world = World::of(std::slice::from_ref(node), &settings).expect("a world");
-    world.nearest(rays, Visibility::All)
 }
 
 #[test]

@@ -2,17 +2,15 @@
 //! says where that is simple.
 
 mod rays;
+mod solids;
 
 use fieldstone::catalogue::*;
 use fieldstone::scene::{Method, Node, Settings};
-use fieldstone::trace::{Footprint, Outcome, Ray, Verdict, Visibility, World};
+use fieldstone::trace::{Footprint, Ray, Verdict, Visibility, World};
 use glam::{DQuat, DVec3};
-use rays::{aimed, random, ray};
+use rays::{aimed, ray};
+use solids::{found, modified, number};
 use std::sync::Arc;
-
-fn number(seed: u64, k: u64) -> f64 {
-    random(seed.wrapping_mul(1_000_003).wrapping_add(k))
-}
 
 /// A torus with its place: the place of the origin, and a turn.
 struct Placed {
@@ -71,19 +69,6 @@ impl Placed {
         let normal = out * about.cos() + DVec3::Y * about.sin();
         (out * self.major + normal * self.minor, normal)
     }
-}
-
-fn modified(modifier: AnyModifier, child: Arc<Node>) -> Arc<Node> {
-    Node::modifier(modifier, child).expect("a valid modifier")
-}
-
-fn found(node: &Arc<Node>, method: Method, rays: &[Ray]) -> Vec<Outcome> {
-    let settings = Settings {
-        method,
-        ..Settings::default()
-    };
-    let world = World::of(std::slice::from_ref(node), &settings).expect("a world");
-    world.nearest(rays, Visibility::All)
 }
 
 /// Holds what `auto` finds against the reference; gives how many hits there were, and how often it asked the field.

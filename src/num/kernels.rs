@@ -497,27 +497,25 @@ mod tests {
         }
     }
 
+    macro_rules! assert_together {
+        ($x:expr) => {
+            let x = $x;
+            let (sine, cosine) = sin_cos(x);
+            let is_same =
+                sine.to_bits() == sin(x).to_bits() && cosine.to_bits() == cos(x).to_bits();
+            let is_nowhere = !x.is_finite() && sine.is_nan() && cosine.is_nan();
+            assert!(is_same || is_nowhere, "{x:e}");
+        };
+    }
+
     #[test]
     fn waves_found_together_have_the_bits_of_each_alone() {
         let mut samples = Samples::new(SEED);
         let special = [0.0, -0.0, 1e5, 1e5_f64.next_up(), -3e9, f64::INFINITY];
         let random = (0..COUNT).map(|_| angle(&mut samples, 1e5));
         for x in special.into_iter().chain(random) {
-            let (sine, cosine) = sin_cos(x);
-            let is_same =
-                sine.to_bits() == sin(x).to_bits() && cosine.to_bits() == cos(x).to_bits();
-            assert!(
-                is_same || !x.is_finite() && sine.is_nan() && cosine.is_nan(),
-                "{x:e}"
-            );
-            let x = x as f32;
-            let (sine, cosine) = sin_cos(x);
-            let is_same =
-                sine.to_bits() == sin(x).to_bits() && cosine.to_bits() == cos(x).to_bits();
-            assert!(
-                is_same || !x.is_finite() && sine.is_nan() && cosine.is_nan(),
-                "{x:e}"
-            );
+            assert_together!(x);
+            assert_together!(x as f32);
         }
     }
 

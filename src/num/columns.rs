@@ -21,14 +21,6 @@ impl<const N: usize> Columns<N> {
         }
     }
 
-    /// As many rows of zeros.
-    pub fn zeros(rows: usize) -> Self {
-        Self {
-            rows,
-            ..Self::with_capacity(rows)
-        }
-    }
-
     /// How many rows there are.
     pub fn len(&self) -> usize {
         self.rows
@@ -74,6 +66,14 @@ impl<const N: usize> Columns<N> {
             rest = others;
             &mut column[..rows]
         })
+    }
+
+    /// Makes it so many rows of the same number.
+    pub fn fill(&mut self, rows: usize, number: f64) {
+        self.resize(rows);
+        for column in self.columns_mut() {
+            column.fill(number);
+        }
     }
 
     /// Makes it so many rows, of whatever was there.
@@ -164,5 +164,10 @@ mod tests {
         some.resize(2);
         some.append(columns.columns().map(|column| &column[..1]));
         assert_eq!((some.len(), some.row(1), some.row(2)), (3, row(99), row(0)));
+        some.fill(2, 0.5);
+        assert_eq!(
+            (some.len(), some.row(0), some.row(1)),
+            (2, [0.5; 3], [0.5; 3])
+        );
     }
 }

@@ -55,12 +55,7 @@ impl Exposure {
         begin(&mut self.is_unknown, pixels, false);
         for sum in &mut self.sums {
             match sum {
-                Sum::Beauty(sums) | Sum::Color(sums) => {
-                    sums.resize(pixels);
-                    for channel in sums.columns_mut() {
-                        channel.fill(0.0);
-                    }
-                }
+                Sum::Beauty(sums) | Sum::Color(sums) => sums.fill(pixels, 0.0),
                 Sum::Depth(depths) => begin(depths, pixels, far),
                 Sum::Normal(normals) => begin(normals, pixels, (DVec3::ZERO, far)),
                 Sum::Steps(sums) | Sum::Evaluations(sums) => begin(sums, pixels, 0),

@@ -3,9 +3,9 @@
 use super::highlight::{GROUP, Group, groups};
 use super::light::{Arrivals, Lamp};
 use super::offset;
-use super::phong::Cosines;
+use super::phong::{Cosines, halfway};
 use crate::field::Task;
-use crate::trace::analytic::select;
+use crate::trace::vector::{place, select};
 use crate::trace::{Footprint, Outcomes, Rays};
 use glam::DVec3;
 use std::ops::Range;
@@ -29,6 +29,7 @@ pub struct Lit {
     /// The cosines that decide what is seen of it, as [`Cosines`].
     pub light: Column,
     pub mirror: Column,
+    /// As [`halfway`]; 0 where no surface asks for it.
     pub halfway: Column,
     /// What the hits gain from the lamp, by channel, if nothing is in the way.
     pub gained: [Column; 3],
@@ -151,9 +152,9 @@ impl<'a> Task for Shine<'a> {
             shine(self.lit, &arrivals, &direction, first);
             if self.has_halfway {
                 for i in 0..GROUP {
-                    let normal = placed(&self.lit.normal, first + i);
+                    let normal = place(&self.lit.normal, first + i);
                     let (toward, view) = (place(&arrivals.toward, i), -place(&direction, i));
-                    self.lit.halfway[first + i] = Cosines::halfway(normal, toward, view);
+                    self.lit.halfway[first + i] = halfway(normal, toward, view);
                 }
             }
             if let Some(position) = self.lamp.position() {
@@ -167,11 +168,11 @@ impl<'a> Task for Shine<'a> {
 #[inline(always)]
 fn shine(lit: &mut Lit, arrivals: &Arrivals, direction: &[Group; 3], first: usize) {
     for i in 0..GROUP {
-        let (normal, toward) = (placed(&lit.normal, first + i), place(&arrivals.toward, i));
-        let cosines = Cosines::of_mirror(normal, toward, -place(direction, i));
+        let (normal, toward) = (place(&lit.normal, first + i), place(&arrivals.toward, i));
+        let cosines = Cosines::new(normal, toward, -place(direction, i));
         lit.light[first + i] = cosines.light;
         lit.mirror[first + i] = cosines.mirror;
-        lit.halfway[first + i] = cosines.halfway;
+        lit.halfway[first + i] = 0.0;
         lit.strength[first + i] = arrivals.strength[i];
         lit.end[first + i] = f64::INFINITY;
         for axis in 0..3 {
@@ -184,7 +185,7 @@ fn shine(lit: &mut Lit, arrivals: &Arrivals, direction: &[Group; 3], first: usiz
 #[inline(always)]
 fn aim(lit: &mut Lit, lamp: DVec3, first: usize) {
     for i in first..first + GROUP {
-        let way = lamp - placed(&lit.start, i);
+        let way = lamp - place(&lit.start, i);
         let distance = way.length();
         let direction = way * (1.0 / distance);
         for axis in 0..3 {
@@ -192,14 +193,4 @@ fn aim(lit: &mut Lit, lamp: DVec3, first: usize) {
         }
         lit.end[i] = offset::before(distance);
     }
-}
-
-#[inline(always)]
-fn place(columns: &[Group; 3], i: usize) -> DVec3 {
-    DVec3::new(columns[0][i], columns[1][i], columns[2][i])
-}
-
-#[inline(always)]
-fn placed(columns: &[Column; 3], i: usize) -> DVec3 {
-    DVec3::new(columns[0][i], columns[1][i], columns[2][i])
 }

@@ -6,6 +6,7 @@
 )]
 
 use super::fresnel::share;
+use super::highlight::GROUP;
 use super::lit::CHUNK;
 use super::looks::Looks;
 use super::medium::{Crossing, Media, Medium};
@@ -17,7 +18,7 @@ use super::wave::{Meetings, Waves};
 use super::{Census, FAINTEST, Surface};
 use crate::field::{Level, Task, run_at};
 use crate::trace::Footprint;
-use crate::trace::analytic::select;
+use crate::trace::vector::{place, select};
 use glam::DVec3;
 
 type Column = [f64; CHUNK];
@@ -312,9 +313,6 @@ impl Task for Turn<'_> {
     }
 }
 
-/// How many rays turn at once.
-const GROUP: usize = 32;
-
 /// Mirrors the rays of a group from number `first` on, and lets none through.
 #[inline(always)]
 fn mirror(s: &mut Senders, first: usize) {
@@ -362,9 +360,4 @@ fn bend(s: &mut Senders, first: usize) {
         let direction = bent(incident, normal, (n1, n2), (cosine, transmitted));
         s.through.put(k, start, direction, (weight, passed));
     }
-}
-
-#[inline(always)]
-fn place(columns: &[Column; 3], i: usize) -> DVec3 {
-    DVec3::new(columns[0][i], columns[1][i], columns[2][i])
 }

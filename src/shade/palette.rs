@@ -157,7 +157,7 @@ impl Palette {
         let Some(number) = surfaces.sole(part) else {
             for i in rays {
                 let [x, y, z] = outcomes.point();
-                let surface = Surface::of(surfaces, part, DVec3::new(x[i], y[i], z[i]));
+                let surface = Surface::mixed(&surfaces.paints(part, DVec3::new(x[i], y[i], z[i])));
                 let number = surface.map_or(NONE, |surface| looks.add(self, surface));
                 looks.numbers.push(number);
             }
@@ -357,7 +357,8 @@ mod tests {
         let palette = Palette::new(&materials.0);
         let mut looks = Looks::default();
         // What was there before is of no concern.
-        for outcomes in [Outcomes::nothing(7), outcomes.clone(), outcomes] {
+        let nothing: Outcomes = [Outcome::NOTHING; 7].into_iter().collect();
+        for outcomes in [nothing, outcomes.clone(), outcomes] {
             palette.look(&materials, &outcomes, &mut looks);
             for (i, outcome) in outcomes.iter().enumerate() {
                 let material = &materials.0[outcome.part as usize];

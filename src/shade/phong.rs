@@ -3,6 +3,7 @@
 //! `I = Ka + sum_i [Kd (L_i.N) + Ks (R_i.V)^n] I_i` with `Ka = ambient color`, `Kd = diffuse color`, `Ks = specular`.
 //! Sources: Lambert 1760; Phong 1975; Blinn 1977.
 
+use crate::trace::vector::unit_or;
 use glam::DVec3;
 
 /// The cosines that decide what a surface shows of a light.
@@ -12,33 +13,26 @@ pub struct Cosines {
     pub light: f64,
     /// That of the angle between the mirrored light and the viewer, R.V, for Phong's highlight.
     pub mirror: f64,
-    /// That of the angle between the normal and half way from light to viewer, N.H, for Blinn's.
-    pub halfway: f64,
 }
 
 impl Cosines {
     /// The cosines between vectors of length 1: `normal` on the viewer's side, `toward` the light, `view` towards the viewer.
-    /// That half way is left at 0.
     #[inline(always)]
-    pub fn of_mirror(normal: DVec3, toward: DVec3, view: DVec3) -> Self {
+    pub fn new(normal: DVec3, toward: DVec3, view: DVec3) -> Self {
         let light = normal.dot(toward);
         Self {
             light,
             mirror: (normal * (2.0 * light) - toward).dot(view),
-            halfway: 0.0,
         }
     }
+}
 
-    /// The cosine between the normal and half way from light to viewer.
-    #[inline(always)]
-    pub fn halfway(normal: DVec3, toward: DVec3, view: DVec3) -> f64 {
-        let sum = toward + view;
-        let scale = 1.0 / sum.length();
-        // Light opposite to the viewer has nothing half way.
-        let is_halfway = (scale > 0.0) & (scale <= f64::MAX);
-        let halfway = normal.dot(sum * scale);
-        if is_halfway { halfway } else { 0.0 }
-    }
+/// The cosine of the angle between the normal and half way from light to viewer, N.H, for Blinn's highlight; of the vectors of
+/// [`Cosines::new`].
+#[inline(always)]
+pub fn halfway(normal: DVec3, toward: DVec3, view: DVec3) -> f64 {
+    // Light opposite to the viewer has nothing half way.
+    normal.dot(unit_or(toward + view, DVec3::ZERO))
 }
 
 /// The share of a light's radiance that the surface sends to the viewer in a channel of this `color`:
@@ -58,10 +52,10 @@ mod tests {
     use std::sync::Arc;
 
     fn reflectance(surface: &Surface, normal: DVec3, toward: DVec3, view: DVec3) -> DVec3 {
-        let cosines = Cosines::of_mirror(normal, toward, view);
+        let cosines = Cosines::new(normal, toward, view);
         let [mirror, halfway, shininess, blinn] = [
             cosines.mirror,
-            Cosines::halfway(normal, toward, view),
+            super::halfway(normal, toward, view),
             surface.shininess,
             surface.blinn,
         ]

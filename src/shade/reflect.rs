@@ -1,6 +1,6 @@
 //! The mirrored direction.
 
-use crate::trace::analytic::{select, unit_or};
+use crate::trace::vector::{select, unit_or};
 use glam::DVec3;
 
 /// `R = I - 2 N (I.N)` for unit vectors, with `normal` against `incident`; never below the surface, whatever the

@@ -1,6 +1,6 @@
 //! The refracted direction.
 
-use crate::trace::analytic::{select, unit_or};
+use crate::trace::vector::{select, unit_or};
 use glam::DVec3;
 
 /// The direction behind a surface between media with indices `n1` (here) and `n2` (there), by Snell's law

@@ -1,6 +1,5 @@
 //! A surface point with all its terms evaluated and its materials mixed.
 
-use super::Surfaces;
 use crate::scene::{Material, Model, Shadow, Term};
 use crate::trace::Paint;
 use glam::DVec3;
@@ -93,14 +92,6 @@ impl Surface {
                 Shadow::None => 1.0,
             },
             material: Arc::as_ptr(m) as usize,
-        }
-    }
-
-    /// What was hit at `point` of `part`; `None` where that shows no paint.
-    pub fn of<S: Surfaces + ?Sized>(surfaces: &S, part: u32, point: DVec3) -> Option<Self> {
-        match surfaces.sole(part) {
-            Some(number) => Some(Self::new(&surfaces.materials()[number], point.to_array())),
-            None => Self::mixed(&surfaces.paints(part, point)),
         }
     }
 

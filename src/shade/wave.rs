@@ -36,10 +36,7 @@ pub struct Wave {
 impl Paths {
     /// Makes them those of that many camera rays, in empty space.
     pub fn start(&mut self, rays: usize) {
-        self.weight.resize(rays);
-        for channel in self.weight.columns_mut() {
-            channel.fill(1.0);
-        }
+        self.weight.fill(rays, 1.0);
         self.sample.clear();
         self.sample.extend(0..rays as u32);
         self.media = Surroundings::empty(rays);

@@ -58,10 +58,7 @@ pub struct Received {
 impl Received {
     /// Forgets all of it, for that many rays.
     fn reset(&mut self, rays: usize) {
-        self.radiance.resize(rays);
-        for channel in self.radiance.columns_mut() {
-            channel.fill(0.0);
-        }
+        self.radiance.fill(rays, 0.0);
         self.unknown.clear();
         self.unknown.resize(rays, false);
     }

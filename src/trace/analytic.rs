@@ -7,24 +7,6 @@ use glam::DVec3;
 /// Half a unit in the last place of 1: the largest relative error of one operation in f64.
 pub(super) const U: f64 = 0.5 * f64::EPSILON;
 
-/// The direction of `v`, or `other` where it has none. Without branches, to serve in lanes.
-#[inline(always)]
-pub fn unit_or(v: DVec3, other: DVec3) -> DVec3 {
-    let scale = 1.0 / v.length();
-    let is_scale = (scale > 0.0) & (scale <= f64::MAX);
-    select(is_scale, v * scale, other)
-}
-
-/// `a` where that holds, else `b`. Without branches, to serve in lanes.
-#[inline(always)]
-pub fn select(holds: bool, a: DVec3, b: DVec3) -> DVec3 {
-    DVec3::new(
-        if holds { a.x } else { b.x },
-        if holds { a.y } else { b.y },
-        if holds { a.z } else { b.z },
-    )
-}
-
 /// Where a ray crosses a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {

@@ -6,8 +6,9 @@
 )]
 
 use super::Rays;
-use super::bundle::{Bundle, CAPACITY, fold, larger, lesser, place};
+use super::bundle::{Bundle, CAPACITY, fold, larger, lesser};
 use super::hierarchy::{BRANCHES, Boxes, Eight};
+use super::vector::place;
 use crate::field::{Level, Task, run_at};
 use glam::DVec3;
 

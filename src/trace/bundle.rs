@@ -7,11 +7,11 @@
 
 use super::analytic::{ClosedForm, Crossing};
 use super::finding::{Finding, concluded, is_better, occluded};
+use super::vector::place;
 use super::{Rays, Verdict};
 use crate::catalogue::Bounds;
 use crate::field::{Level, Task, run_at};
 use crate::num::F64x32;
-use glam::DVec3;
 use std::mem;
 
 /// How many rays a bundle holds: a block of 16 x 16 pixels.
@@ -520,10 +520,4 @@ impl<F: ClosedForm> Enter<'_, F> {
         }
         sum > 0
     }
-}
-
-/// The place of a ray.
-#[inline(always)]
-pub(super) fn place(columns: &[Column; 3], i: usize) -> DVec3 {
-    DVec3::new(columns[0][i], columns[1][i], columns[2][i])
 }

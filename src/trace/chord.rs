@@ -1,8 +1,7 @@
 //! Convex solids whose stretch on a ray is known in closed form.
 
-use super::analytic::{
-    Ball, ClosedForm, HalfSpace, U, chord_ends, chord_error, face, select, unit_or,
-};
+use super::analytic::{Ball, ClosedForm, HalfSpace, U, chord_ends, chord_error, face};
+use super::vector::{select, unit_or};
 use crate::catalogue::{AnyPrimitive, Similarity};
 use glam::DVec3;
 

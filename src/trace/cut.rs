@@ -225,10 +225,13 @@ impl Cut {
 
     /// Finds what lies at the places that rays came to.
     fn look(&self, shop: &Workshop, verge: &mut Verge, lines: &Lines, level: Level) {
-        let ends = |leaf: &u32| Ends {
-            leaf: u64::from(*leaf),
-            chords: &shop.chords[*leaf as usize],
-            is_added: self.leaves[*leaf as usize].sign > 0.0,
+        let ends = |leaf: &u32| {
+            let is_added = self.leaves[*leaf as usize].sign > 0.0;
+            Ends {
+                leaf: u64::from(*leaf),
+                chords: &shop.chords[*leaf as usize],
+                leads_in: [is_added, !is_added].map(u64::from),
+            }
         };
         for leaf in &shop.met {
             let ends = ends(leaf);
@@ -282,11 +285,12 @@ pub(super) fn lines(bundle: &Bundle, rays: &[u32]) -> Lines {
     lines
 }
 
-/// The ends of the chords of a leaf, and whether that is added to what is combined, or else taken away.
+/// The ends of the chords of a leaf.
 struct Ends<'a> {
     leaf: u64,
     chords: &'a Chords,
-    is_added: bool,
+    /// Whether they lead into what is combined, as 0 or 1: where rays enter the leaf, and where they leave it.
+    leads_in: [u64; 2],
 }
 
 /// Takes a leaf whose surface lies where rays came to, if they have none yet: where they enter it, or else leave it.
@@ -301,7 +305,7 @@ impl Task for Meet<'_> {
     #[inline(always)]
     fn run(self) {
         let (chords, v) = (self.ends.chords, self.verge);
-        let [into, out_of] = [self.ends.is_added, !self.ends.is_added].map(u64::from);
+        let [into, out_of] = self.ends.leads_in;
         for lane in 0..WIDTH {
             let t = v.t[lane];
             let (enters, leaves) = (chords.enter[lane] == t, chords.leave[lane] == t);
@@ -333,7 +337,7 @@ impl Task for Doubt<'_> {
     #[inline(always)]
     fn run(self) {
         let (chords, v) = (self.ends.chords, self.verge);
-        let [into, out_of] = [self.ends.is_added, !self.ends.is_added].map(u64::from);
+        let [into, out_of] = self.ends.leads_in;
         for lane in 0..WIDTH {
             let (t, own) = (v.t[lane], v.own[lane]);
             let mut is_open = chords.doubt[lane] != 0.0;

@@ -36,6 +36,7 @@ mod stride;
 mod survey;
 mod sweep;
 mod unpruned;
+pub mod vector;
 mod world;
 
 pub use evidence::Witness;

@@ -148,20 +148,6 @@ pub struct Outcomes {
 }
 
 impl Outcomes {
-    /// As many times [`Outcome::NOTHING`].
-    pub fn nothing(count: usize) -> Self {
-        let nothing = Outcome::NOTHING;
-        let mut numbers = Columns::zeros(count);
-        numbers.column_mut(0).fill(nothing.t);
-        Self {
-            verdict: vec![nothing.verdict; count],
-            part: vec![nothing.part; count],
-            steps: vec![nothing.steps; count],
-            evaluations: vec![nothing.evaluations; count],
-            numbers,
-        }
-    }
-
     /// How many there are.
     pub fn len(&self) -> usize {
         self.verdict.len()

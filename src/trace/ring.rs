@@ -20,11 +20,12 @@
 )]
 
 use super::analytic::{Ball, ClosedForm, U};
-use super::bundle::{Bundle, CAPACITY, WIDTH, larger, lesser, place};
+use super::bundle::{Bundle, CAPACITY, WIDTH, larger, lesser};
 use super::chord::Frame;
 use super::cut::{Found, Workshop, lines};
 use super::packet::Lane;
 use super::quartic::{Quartics, state};
+use super::vector::place;
 use crate::catalogue::{Similarity, Torus};
 use crate::field::{Level, Task, run_at};
 use glam::DVec3;
@@ -273,8 +274,7 @@ impl<'a> Lines<'a> {
 
     #[inline(always)]
     fn ray(&self, i: usize) -> (DVec3, DVec3) {
-        let at = |[x, y, z]: &[Lane; 3]| DVec3::new(x[i], y[i], z[i]);
-        (at(&self.origin), at(&self.direction))
+        (place(&self.origin, i), place(&self.direction, i))
     }
 
     /// Goes over to the ring's coordinates and writes down the quartics; gives whether any line starts close to the ring.

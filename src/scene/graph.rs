@@ -6,6 +6,7 @@
 use super::Node;
 use super::extent::extent;
 use super::period::period;
+use super::registers::Registers;
 use crate::catalogue::{Bounds, Function};
 use crate::num::{Interval, Number, Steep, Vec3};
 use std::collections::HashMap;
@@ -401,45 +402,23 @@ struct Step {
     into: u32,
 }
 
-/// Gives every operation a register, used again once nothing needs its value: steps, their number, the outputs.
+/// Gives every operation a register: steps, the number of registers, the outputs.
 fn allocate(ops: &[Op], outputs: &[Id]) -> (Vec<Step>, usize, Vec<u32>) {
-    let mut last_use: Vec<usize> = (0..ops.len()).collect();
-    for (i, op) in ops.iter().enumerate() {
+    let reads = |op: &Op| {
         let (ids, n) = op.operands();
-        ids[..n].iter().for_each(|id| last_use[id.0 as usize] = i);
-    }
-    outputs
-        .iter()
-        .for_each(|id| last_use[id.0 as usize] = usize::MAX);
-    let mut free: Vec<u32> = Vec::new();
-    let mut count = 0;
-    let mut register = vec![0u32; ops.len()];
+        ids[..n].to_vec()
+    };
+    let mut registers = Registers::new(ops.len(), ops.iter().map(reads), outputs, 0);
     let mut steps = Vec::with_capacity(ops.len());
     for (i, op) in ops.iter().enumerate() {
-        let (ids, n) = op.operands();
-        let renamed = op.with_operands(|id| Id(register[id.0 as usize]));
-        let mut ended: Vec<u32> = ids[..n]
-            .iter()
-            .filter(|id| last_use[id.0 as usize] == i)
-            .map(|id| register[id.0 as usize])
-            .collect();
-        ended.sort_unstable();
-        ended.dedup();
-        free.extend(ended);
-        register[i] = free.pop().unwrap_or_else(|| {
-            count += 1;
-            count - 1
-        });
-        steps.push(Step {
-            op: renamed,
-            into: register[i],
-        });
+        let renamed = op.with_operands(|id| registers.of(id));
+        registers.end(i, &reads(op));
+        let into = registers.take(Id::at(i)).0;
+        steps.push(Step { op: renamed, into });
     }
-    (
-        steps,
-        count as usize,
-        outputs.iter().map(|id| register[id.0 as usize]).collect(),
-    )
+    let outputs = outputs.iter().map(|id| registers.of(*id).0);
+    let outputs = outputs.collect();
+    (steps, registers.count(), outputs)
 }
 
 /// The value of one operation on registers.

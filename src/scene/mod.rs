@@ -13,6 +13,7 @@ mod material;
 mod node;
 mod period;
 mod program;
+mod registers;
 mod settings;
 mod supremum;
 mod symbol;

@@ -5,6 +5,7 @@
 //! is that of the graph on the same operands, so the results have the same bits.
 
 use super::graph::{Graph, Id, Op, apply};
+use super::registers::Registers;
 use crate::catalogue::Function;
 use crate::num::{Number, Vec3};
 
@@ -211,54 +212,37 @@ fn drop_unused(instructions: &mut Vec<Instruction>, outputs: &[Id]) {
     *instructions = kept;
 }
 
-/// Gives every value a register, used again once nothing needs the value.
+/// Gives every value a register.
 fn allocated(instructions: &[Instruction], outputs: &[Id]) -> Program {
     let values = instructions.iter().flat_map(|i| i.into).max();
     let values = values.map_or(0, |id| id.index() + 1);
-    let mut last_use = vec![0; values];
-    for (i, instruction) in instructions.iter().enumerate() {
-        let operands = instruction.rule.operands();
-        operands.iter().for_each(|id| last_use[id.index()] = i);
-    }
-    outputs
-        .iter()
-        .for_each(|id| last_use[id.index()] = usize::MAX);
+    let reads = instructions.iter().map(|i| i.rule.operands());
     // The point is there already.
-    let (mut free, mut registers) = (Vec::new(), 3);
-    let mut register = vec![Id::at(0); values];
+    let mut registers = Registers::new(values, reads, outputs, 3);
     let mut renamed = Vec::with_capacity(instructions.len());
     for (i, instruction) in instructions.iter().enumerate() {
+        let [first, second] = instruction.into;
         if let Rule::Plain(Op::Coordinate(axis)) = instruction.rule {
-            register[instruction.into[0].index()] = Id::at(usize::from(axis));
+            registers.put(first, usize::from(axis));
             continue;
         }
-        let rule = instruction.rule.with_operands(|id| register[id.index()]);
-        let operands = instruction.rule.operands();
-        let ended = operands.iter().filter(|id| last_use[id.index()] == i);
-        let mut ended: Vec<Id> = ended.map(|id| register[id.index()]).collect();
-        ended.sort_unstable();
-        ended.dedup();
-        free.extend(ended);
-        let [first, second] = instruction.into;
-        let mut take = |value: Id| {
-            register[value.index()] = free.pop().unwrap_or_else(|| {
-                registers += 1;
-                Id::at(registers - 1)
-            });
+        let rule = instruction.rule.with_operands(|id| registers.of(id));
+        registers.end(i, &instruction.rule.operands());
+        let into = registers.take(first);
+        let beside = if second == first {
+            into
+        } else {
+            registers.take(second)
         };
-        take(first);
-        if second != first {
-            take(second);
-        }
         renamed.push(Instruction {
             rule,
-            into: [first, second].map(|value| register[value.index()]),
+            into: [into, beside],
         });
     }
     Program {
         instructions: renamed,
-        registers,
-        outputs: outputs.iter().map(|id| register[id.index()]).collect(),
+        registers: registers.count(),
+        outputs: outputs.iter().map(|id| registers.of(*id)).collect(),
     }
 }
 

@@ -1,6 +1,7 @@
 //! What lighting reads of surfaces, in columns.
 
 use super::Surface;
+use super::surface::Property;
 
 /// How many numbers of a surface lighting reads.
 pub const LIGHTING: usize = 8;
@@ -53,8 +54,17 @@ pub fn row(s: &Surface) -> [f64; LIGHTING] {
     ]
 }
 
-/// The exponent's place in a [`row`].
-pub const SHININESS: usize = 6;
+/// The place in a [`row`] of the first number of a property; none if lighting does not read it.
+pub fn place(property: Property) -> Option<usize> {
+    match property {
+        Property::Color => Some(0),
+        Property::Ambient => Some(3),
+        Property::Diffuse => Some(4),
+        Property::Specular => Some(5),
+        Property::Shininess => Some(6),
+        Property::Reflect | Property::Refract | Property::Ior | Property::Absorb => None,
+    }
+}
 
 /// Where there is no surface, the colour is that of the sky, and all of it is seen.
 pub const BACKDROP: [f64; LIGHTING] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];

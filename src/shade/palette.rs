@@ -1,9 +1,9 @@
 //! What the surfaces of a scene look like: materials that are the same at all points are evaluated once, and patterns at many
 //! points at a time.
 
-use super::lighting::{SHININESS, row};
+use super::lighting::{place, row};
 use super::looks::{Looks, NONE};
-use super::surface::Terms;
+use super::surface::{Property, Terms};
 use super::{Surface, Surfaces};
 use crate::field::{Level, Walked, compile_graph};
 use crate::num::{F64x32, Lanes, Vec3};
@@ -16,26 +16,6 @@ use std::sync::Arc;
 
 /// How many points are evaluated at a time.
 const WIDTH: usize = F64x32::WIDTH;
-
-/// For each pattern of a material, in the order in which a surface asks for them, the first number of a [`row`] that it is;
-/// none if lighting does not read it.
-fn columns_of_patterns(m: &Material) -> Vec<Option<usize>> {
-    let is_pattern = |term: &Term<f64>| matches!(term, Term::Pattern(_));
-    let is_colors = |term: &Term<DVec3>| matches!(term, Term::Pattern(_));
-    let terms = [
-        (is_pattern(&m.refract), None),
-        (is_pattern(&m.ior), None),
-        (is_colors(&m.color), Some(0)),
-        (is_pattern(&m.ambient), Some(3)),
-        (is_pattern(&m.diffuse), Some(4)),
-        (is_pattern(&m.specular), Some(5)),
-        (is_pattern(&m.shininess), Some(SHININESS)),
-        (is_pattern(&m.reflect), None),
-        (is_colors(&m.absorb), None),
-    ];
-    let patterns = terms.into_iter().filter(|(is_pattern, _)| *is_pattern);
-    patterns.map(|(_, column)| column).collect()
-}
 
 /// A material of a scene.
 struct Swatch {
@@ -54,8 +34,7 @@ struct Pattern {
     walk: Walked<F64x32>,
     /// 3 for a colour, else 1.
     outputs: usize,
-    /// The first number of a [`row`] that it is, if lighting reads it.
-    column: Option<usize>,
+    property: Property,
 }
 
 /// The materials of a scene.
@@ -80,18 +59,17 @@ impl Palette {
         let swatch = |material: &Arc<Material>| {
             let mut graphs = Graphs(Vec::new());
             let surface = Surface::of_terms(material, &mut graphs);
-            let pattern = |(column, graph): (Option<usize>, Arc<Graph>)| Pattern {
+            let pattern = |(property, graph): (Property, Arc<Graph>)| Pattern {
                 walk: compile_graph(&graph, level),
                 outputs: if graph.outputs() == 3 { 3 } else { 1 },
-                column,
+                property,
             };
-            let columns = columns_of_patterns(material);
-            let patterns = columns.into_iter().zip(graphs.0).map(pattern);
-            let patterns: Vec<Pattern> = patterns.collect();
+            let patterns: Vec<Pattern> = graphs.0.into_iter().map(pattern).collect();
+            let is_lit = |pattern: &Pattern| place(pattern.property).is_some();
             Swatch {
                 material: material.clone(),
                 surface,
-                is_only_lit: patterns.iter().all(|pattern| pattern.column.is_some()),
+                is_only_lit: patterns.iter().all(is_lit),
                 patterns,
             }
         };
@@ -190,13 +168,17 @@ impl Palette {
         };
         if swatch.is_only_lit {
             for pattern in &swatch.patterns {
-                let (value, first) = (value(pattern), pattern.column.unwrap_or(0));
-                let count = if first == 0 { 3 } else { 1 };
+                let Some(first) = place(pattern.property) else {
+                    continue;
+                };
+                let value = value(pattern);
+                let is_color = pattern.property == Property::Color;
+                let is_exponent = pattern.property == Property::Shininess;
+                let count = if is_color { 3 } else { 1 };
                 let columns = looks.terms.columns_mut().into_iter().skip(first);
                 for (column, number) in columns.zip(&value[..count]) {
                     for (lane, (_, ray)) in rays.iter().enumerate() {
                         let number = number.0[lane];
-                        let is_exponent = first == SHININESS;
                         column[*ray as usize] = if is_exponent { number.max(0.0) } else { number };
                     }
                 }
@@ -220,14 +202,14 @@ impl Palette {
 }
 
 /// Collects the patterns of a material; their values don't matter.
-struct Graphs(Vec<Arc<Graph>>);
+struct Graphs(Vec<(Property, Arc<Graph>)>);
 
 impl Graphs {
-    fn value<T: Copy>(&mut self, term: &Term<T>, nothing: T) -> T {
+    fn value<T: Copy>(&mut self, property: Property, term: &Term<T>, nothing: T) -> T {
         match term {
             Term::Constant(value) => *value,
             Term::Pattern(graph) => {
-                self.0.push(graph.clone());
+                self.0.push((property, graph.clone()));
                 nothing
             }
         }
@@ -235,12 +217,12 @@ impl Graphs {
 }
 
 impl Terms for Graphs {
-    fn number(&mut self, term: &Term<f64>) -> f64 {
-        self.value(term, 0.0)
+    fn number(&mut self, property: Property, term: &Term<f64>) -> f64 {
+        self.value(property, term, 0.0)
     }
 
-    fn color(&mut self, term: &Term<DVec3>) -> DVec3 {
-        self.value(term, DVec3::ZERO)
+    fn color(&mut self, property: Property, term: &Term<DVec3>) -> DVec3 {
+        self.value(property, term, DVec3::ZERO)
     }
 }
 
@@ -261,14 +243,14 @@ impl Known<'_> {
 }
 
 impl Terms for Known<'_> {
-    fn number(&mut self, term: &Term<f64>) -> f64 {
+    fn number(&mut self, _: Property, term: &Term<f64>) -> f64 {
         match term {
             Term::Constant(value) => *value,
             Term::Pattern(_) => self.next().x,
         }
     }
 
-    fn color(&mut self, term: &Term<DVec3>) -> DVec3 {
+    fn color(&mut self, _: Property, term: &Term<DVec3>) -> DVec3 {
         match term {
             Term::Constant(value) => *value,
             Term::Pattern(_) => self.next(),
@@ -342,14 +324,19 @@ mod tests {
                 absorb: Term::Pattern(pattern(32, 3)),
                 ..Material::default()
             }),
+            Arc::new(Material {
+                diffuse: number(41),
+                specular: number(42),
+                ..Material::default()
+            }),
         ]);
         let outcome = |i: u64| Outcome {
-            verdict: if i % 5 == 4 {
+            verdict: if i % 7 == 4 {
                 Verdict::Miss
             } else {
                 Verdict::Hit
             },
-            part: (i % 4) as u32,
+            part: (i % 5) as u32,
             point: DVec3::from_array([0, 1, 2].map(|k| 4.0 * random(100 + 3 * i + k) - 2.0)),
             ..Outcome::NOTHING
         };
@@ -369,6 +356,8 @@ mod tests {
                 let found = looks.at(&palette, i).map(|surface| Surface {
                     color: expected.color,
                     ambient: expected.ambient,
+                    diffuse: expected.diffuse,
+                    specular: expected.specular,
                     shininess: expected.shininess,
                     ..*surface
                 });

@@ -36,24 +36,38 @@ pub struct Surface {
     pub material: usize,
 }
 
+/// Which term of a material it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Property {
+    Color,
+    Ambient,
+    Diffuse,
+    Specular,
+    Shininess,
+    Reflect,
+    Refract,
+    Ior,
+    Absorb,
+}
+
 /// What gives the terms of a material their values, one after the other.
 pub(super) trait Terms {
     /// The value of a number.
-    fn number(&mut self, term: &Term<f64>) -> f64;
+    fn number(&mut self, property: Property, term: &Term<f64>) -> f64;
 
     /// The value of a colour.
-    fn color(&mut self, term: &Term<DVec3>) -> DVec3;
+    fn color(&mut self, property: Property, term: &Term<DVec3>) -> DVec3;
 }
 
 /// The values at a point.
 struct At([f64; 3]);
 
 impl Terms for At {
-    fn number(&mut self, term: &Term<f64>) -> f64 {
+    fn number(&mut self, _: Property, term: &Term<f64>) -> f64 {
         term.at(self.0)
     }
 
-    fn color(&mut self, term: &Term<DVec3>) -> DVec3 {
+    fn color(&mut self, _: Property, term: &Term<DVec3>) -> DVec3 {
         term.at(self.0)
     }
 }
@@ -64,19 +78,20 @@ impl Surface {
         Self::of_terms(material, &mut At(point))
     }
 
-    /// `material` where its terms have these values.
+    /// `material` where its terms have these values. The order in which they are asked for is always the same.
     pub(super) fn of_terms(material: &Arc<Material>, terms: &mut impl Terms) -> Self {
         let m = material;
-        let (refract, ior) = (terms.number(&m.refract), terms.number(&m.ior));
+        let refract = terms.number(Property::Refract, &m.refract);
+        let ior = terms.number(Property::Ior, &m.ior);
         let share = |holds: bool| if holds { 1.0 } else { 0.0 };
         Self {
-            color: terms.color(&m.color),
-            ambient: terms.number(&m.ambient),
-            diffuse: terms.number(&m.diffuse),
-            specular: terms.number(&m.specular),
-            shininess: terms.number(&m.shininess).max(0.0),
+            color: terms.color(Property::Color, &m.color),
+            ambient: terms.number(Property::Ambient, &m.ambient),
+            diffuse: terms.number(Property::Diffuse, &m.diffuse),
+            specular: terms.number(Property::Specular, &m.specular),
+            shininess: terms.number(Property::Shininess, &m.shininess).max(0.0),
             blinn: share(m.model == Model::Blinn),
-            reflect: terms.number(&m.reflect),
+            reflect: terms.number(Property::Reflect, &m.reflect),
             refract,
             // A pattern may give anything; what bends no light at all has an index of 1.
             ior: if ior > 0.0 && ior.is_finite() {
@@ -85,7 +100,7 @@ impl Surface {
                 1.0
             },
             fresnel: share(m.fresnel),
-            absorb: terms.color(&m.absorb).max(DVec3::ZERO),
+            absorb: terms.color(Property::Absorb, &m.absorb).max(DVec3::ZERO),
             passes: match m.shadow {
                 Shadow::Opaque => 0.0,
                 Shadow::Tinted => refract,

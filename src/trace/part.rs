@@ -250,7 +250,7 @@ impl Marched {
 }
 
 /// The fault of a shape that has no finite constant.
-fn unbounded(node: &Node) -> Fault {
+pub(super) fn unbounded(node: &Node) -> Fault {
     let name = node.name().unwrap_or(node.kind());
     Fault::new(
         format!("`{name}` has no finite Lipschitz constant on its bounds, so it cannot be traced"),

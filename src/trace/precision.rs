@@ -4,6 +4,7 @@
 //! are those of `method/sphere.rs`, with the number's own rounding as the floor of the tolerance. Nothing is pruned and nothing
 //! is compiled, so times say nothing here.
 
+use super::part::unbounded;
 use super::{Outcome, Ray, Verdict};
 use crate::catalogue::Bounds;
 use crate::num::{Number, Vec3};
@@ -53,10 +54,7 @@ pub fn sphere_traced<N: Precision>(
     };
     let lipschitz = node.lipschitz_over(region);
     if !lipschitz.is_finite() {
-        return Err(Fault::new(
-            "the shape has no finite Lipschitz constant on its bounds, so it cannot be traced",
-            "intersect it with something finite, as in `shape & box(4)`",
-        ));
+        return Err(unbounded(node));
     }
     let march = March::<N> {
         node,
@@ -185,7 +183,7 @@ impl<N: Precision> March<'_, N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::catalogue::{AnyModifier, AnyPrimitive, Sphere, Torus, Translate};
+    use crate::catalogue::{AnyModifier, AnyPrimitive, Plane, Sphere, Torus, Translate, Twist};
     use crate::scene::Method;
     use crate::trace::{Footprint, Visibility, World, union};
 
@@ -267,6 +265,17 @@ mod tests {
             narrow > 1e-9 && narrow < 2.0 * floor(f32::EPSILON.into()),
             "{narrow}"
         );
+    }
+
+    /// A twisted plane is as steep as it is wide: it has no constant.
+    #[test]
+    fn what_has_no_constant_is_refused_as_by_the_world() {
+        let plane = Node::primitive(AnyPrimitive::Plane(Plane::new([0.0, 1.0, 0.0], 0.0))).unwrap();
+        let sheet = Node::modifier(AnyModifier::Twist(Twist::new(1.0)), plane).unwrap();
+        let settings = Settings::default();
+        let fault = sphere_traced::<f64>(&sheet, &settings, &[]).unwrap_err();
+        assert!(fault.message.contains("`twist` has no finite"), "{fault:?}");
+        assert_eq!(Some(fault), World::of(&[sheet], &settings).err());
     }
 
     /// Half the largest f32 exponent is where squares of coordinates overflow: 2^70 is beyond it, and f32 sees nothing.

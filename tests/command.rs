@@ -288,12 +288,28 @@ fn unknown_pixels_are_warned_of() {
 }
 
 #[test]
+fn a_missing_folder_is_named_before_the_work() {
+    let folder = Folder::with_scene("missing");
+    let expect = |arguments: &[&str], file: &str| {
+        let answer = folder.run(arguments).expect(1);
+        let reason = "the folder `no/such`: there is no such file or folder";
+        let message = format!("error: cannot write `no/such/{file}`: {reason}\n");
+        assert_eq!((&*answer.out, answer.err), ("", message), "{arguments:?}");
+    };
+    let (png, json, xml) = ("no/such/a.png", "no/such/a.json", "no/such/a.xml");
+    expect(&["render", "scene.sdf", "-o", png], "a.png");
+    expect(&["render", "scene.sdf", "--stats", json], "a.json");
+    expect(&["chart", "scene.sdf", "-o", "no/such"], "chart.csv");
+    let study = ["chart", "--study", "grazing", "-o", "no/such"];
+    expect(&study, "grazing.csv");
+    expect(&["test", "scene.sdf", "--junit", xml], "a.xml");
+    expect(&["new", "no/such/a.sdf"], "a.sdf");
+    assert_eq!(folder.names(), ["scene.sdf"]);
+}
+
+#[test]
 fn failed_writes_leave_nothing() {
     let folder = Folder::with_scene("failed");
-    let answer = folder
-        .run(&["render", "scene.sdf", "-o", "no/such/a.png"])
-        .expect(1);
-    assert!(answer.err.contains("`no/such`"), "{}", answer.err);
     fs::create_dir(folder.0.join("dir.png")).unwrap();
     let answer = folder
         .run(&["render", "scene.sdf", "-o", "dir.png"])

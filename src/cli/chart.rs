@@ -4,6 +4,7 @@ use super::chart_panels::{Kind, Measured, Metric, Work, chart};
 use super::chart_tables::{csv, json, markdown};
 use super::console::{answer, say_line};
 use super::failure::Failure;
+use super::files;
 use super::script::{AnyScripts, compile, described};
 use super::study::{self, Study};
 use super::{tracing, truth_cache, value};
@@ -12,7 +13,6 @@ use crate::output::{self, Metadata};
 use crate::render::{Setting, sweep};
 use crate::scene::{Method, Scene, Settings};
 use clap::Args;
-use std::io;
 use std::path::{Path, PathBuf};
 
 const AFTER_HELP: &str = "\
@@ -101,12 +101,8 @@ const WIDTH: u32 = 160;
 /// If a script is wrong, shows what can't be traced, or a file can't be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = arguments.output.clone().unwrap_or_default();
-    if !folder.as_os_str().is_empty() && !folder.is_dir() {
-        return Err(Failure::Other(format!(
-            "there is no folder `{}`",
-            folder.display()
-        )));
-    }
+    let name = arguments.study.map_or("chart", Study::name);
+    files::has_place(&folder.join(name).with_extension("csv"))?;
     if let Some(study) = arguments.study {
         return run_study(arguments, study, &folder);
     }
@@ -270,8 +266,7 @@ fn draw(
 }
 
 fn write(arguments: &Arguments, path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let failed = |error: io::Error| Failure::writing(&format!("`{}`", path.display()), &error);
-    output::write(path, bytes).map_err(failed)?;
+    files::write(path, bytes)?;
     if !arguments.quiet {
         say_line(&format!("wrote {}", path.display()));
     }

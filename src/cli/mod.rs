@@ -13,6 +13,7 @@ mod console;
 mod eval;
 mod explain;
 mod failure;
+mod files;
 mod interrupt;
 mod junit;
 mod limits;

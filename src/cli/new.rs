@@ -2,6 +2,7 @@
 
 use super::console::say_line;
 use super::failure::Failure;
+use super::files;
 use clap::Args;
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -33,7 +34,8 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let path = with_ending(&arguments.path);
     let name = path.display();
-    create(&path).map_err(|error| Failure::writing(&format!("`{name}`"), &error))?;
+    files::has_place(&path)?;
+    create(&path).map_err(|error| files::failed(&path, &error))?;
     say_line(&format!(
         "wrote {name}; for its picture: fieldstone render {name}"
     ));

@@ -1,7 +1,8 @@
 //! `fieldstone render`: a picture of a scene.
 
 use super::console::{say, say_line, say_warning};
-use super::failure::{Failure, reason};
+use super::failure::Failure;
+use super::files;
 use super::interrupt;
 use super::progress::Reporter;
 use super::refutations;
@@ -14,7 +15,6 @@ use crate::render::{self, Channel, RenderOptions, Rendered};
 use crate::scene::{Scene, Settings};
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
@@ -88,7 +88,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     [Some(&path), arguments.stats.as_ref()]
         .into_iter()
         .flatten()
-        .try_for_each(|path| has_place(path))?;
+        .try_for_each(|path| files::has_place(path))?;
     let mut stages = Stages::default();
     let (loaded, milliseconds) = timed(|| arguments.script.load());
     let mut loaded = loaded?;
@@ -102,13 +102,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let name = script_name(arguments);
     let metadata = Metadata::new(&name, &loaded.parameters, &loaded.scene.settings);
     let (saved, milliseconds) = timed(|| output::save(&rendered.film, &path, &metadata));
-    let saved = saved.map_err(|error| Failure::writing(&quoted(&error.path), &error.source))?;
+    let saved = saved.map_err(|error| files::failed(&error.path, &error.source))?;
     stages.write = milliseconds;
     if let Some(path) = &arguments.stats {
-        stats::to_json(&rendered.statistics, &stages, &name, &loaded.parameters)
-            .map_err(io::Error::other)
-            .and_then(|text| output::write(path, text.as_bytes()))
-            .map_err(|error| Failure::writing(&quoted(path), &error))?;
+        let text = stats::to_json(&rendered.statistics, &stages, &name, &loaded.parameters)
+            .map_err(|error| Failure::Other(error.to_string()))?;
+        files::write(path, text.as_bytes())?;
     }
     tell(arguments, &rendered, &stages, &saved);
     if refutations::warn(&loaded, &world) > 0 && arguments.strict {
@@ -199,33 +198,6 @@ fn default_path(script: &Path) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Says before the work, and not after it, that a file could not be written.
-fn has_place(path: &Path) -> Result<(), Failure> {
-    let file = path.display();
-    if path.is_dir() {
-        return Err(Failure::Other(format!(
-            "cannot write `{file}`: it is a folder"
-        )));
-    }
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => return Ok(()),
-    };
-    let error = match folder.metadata() {
-        Ok(metadata) if metadata.is_dir() => return Ok(()),
-        Ok(_) => "it is not a folder".into(),
-        Err(error) => reason(&error),
-    };
-    let folder = folder.display();
-    Err(Failure::Other(format!(
-        "cannot write `{file}`: the folder `{folder}`: {error}"
-    )))
-}
-
-fn quoted(path: &Path) -> String {
-    format!("`{}`", path.display())
-}
-
 fn script_name(arguments: &Arguments) -> String {
     let path = &arguments.script.path;
     path.file_name()
@@ -246,15 +218,5 @@ mod tests {
         );
         assert_eq!(default_path(Path::new("arch")), Path::new("arch.png"));
         assert_eq!(default_path(Path::new("v1.2.sdf")), Path::new("v1.2.png"));
-    }
-
-    #[test]
-    fn missing_folder_is_named() {
-        let error = has_place(Path::new("no/such/folder/a.png")).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "cannot write `no/such/folder/a.png`: the folder `no/such/folder`: there is no such file or folder"
-        );
-        assert!(has_place(Path::new("a.png")).is_ok());
     }
 }

@@ -2,10 +2,10 @@
 
 use super::console::{GREEN, RED, answer, answers_color, colored};
 use super::failure::Failure;
+use super::files;
 use super::junit::{self, Case, Suite};
 use super::script::Scripts;
 use crate::lang::TestResult;
-use crate::output;
 use crate::render::CameraTracer;
 use crate::scene::CameraRecord;
 use clap::Args;
@@ -47,8 +47,11 @@ struct Tally {
 /// Runs the tests and prints what became of them.
 ///
 /// # Errors
-/// If a test fails, or a script can't be read or is wrong.
+/// If a test fails, a script can't be read or is wrong, or the file can't be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if let Some(path) = &arguments.junit {
+        files::has_place(path)?;
+    }
     let scripts = &arguments.scripts;
     let mut tally = Tally::default();
     let mut suites = Vec::new();
@@ -110,8 +113,7 @@ fn report(
     };
     let suites: Vec<Suite> = arguments.scripts.paths().iter().map(suite).collect();
     if let Some(path) = &arguments.junit {
-        let failed = |error| Failure::writing(&format!("`{}`", path.display()), &error);
-        output::write(path, junit::xml(&suites).as_bytes()).map_err(failed)?;
+        files::write(path, junit::xml(&suites).as_bytes())?;
     }
     answer(&if arguments.json {
         junit::in_json(&suites)

@@ -5,7 +5,7 @@ use super::light::{Arrivals, Lamp};
 use super::offset;
 use super::phong::{Cosines, halfway};
 use crate::field::Task;
-use crate::trace::vector::{place, select};
+use crate::trace::vector::place;
 use crate::trace::{Footprint, Outcomes, Rays};
 use glam::DVec3;
 use std::ops::Range;
@@ -102,9 +102,7 @@ impl<'a> Task for Face<'a> {
             let [t, error] = &groups([t, error], first);
             let [at_origin, spread] = &groups(footprint, first);
             for i in 0..GROUP {
-                let outward = place(&normal, i);
-                let is_outside = outward.dot(place(&direction, i)) <= 0.0;
-                let facing = select(is_outside, outward, -outward);
+                let facing = offset::facing(place(&normal, i), place(&direction, i));
                 let start = offset::start(place(&point, i), t[i], error[i], facing);
                 for axis in 0..3 {
                     lit.normal[axis][first + i] = facing[axis];

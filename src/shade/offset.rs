@@ -7,6 +7,7 @@
 //! largest coordinate of `p`, bounds their sum. A start at `p + 2 (error + 4u (t + |p|)) n` lies on the side of `n`, by at least as much as
 //! `p` may lie beyond it. Lengths scale with the scene, so scaling it by a power of two keeps the bits.
 
+use crate::trace::vector::select;
 use crate::trace::{Footprint, Outcome, Ray};
 use glam::DVec3;
 
@@ -22,6 +23,18 @@ pub fn start(point: DVec3, t: f64, error: f64, side: DVec3) -> DVec3 {
     let largest = if larger > size.z { larger } else { size.z };
     let rounding = 4.0 * UNIT_ROUNDOFF * (t + largest);
     point + side * (2.0 * (error + rounding))
+}
+
+/// Whether a ray comes from the outside of the surface that it meets, along the surface included.
+#[inline(always)]
+pub fn is_outside(outward: DVec3, incident: DVec3) -> bool {
+    outward.dot(incident) <= 0.0
+}
+
+/// The unit normal on the side from which a ray comes.
+#[inline(always)]
+pub fn facing(outward: DVec3, incident: DVec3) -> DVec3 {
+    select(is_outside(outward, incident), outward, -outward)
 }
 
 /// The ray that leaves `hit` along `direction`, of length 1, on the side of `side`; `footprint` is that of the ray that

@@ -18,7 +18,7 @@ use super::wave::{Meetings, Waves};
 use super::{Census, FAINTEST, Surface};
 use crate::field::{Level, Task, run_at};
 use crate::trace::Footprint;
-use crate::trace::vector::{place, select};
+use crate::trace::vector::place;
 use glam::DVec3;
 
 type Column = [f64; CHUNK];
@@ -269,7 +269,7 @@ fn crossing<'a>(
 ) -> &'a Crossing {
     let (direction, normal) = (wave.rays.direction(), wave.outcomes.normal());
     let [outward, incident] = [normal, direction].map(|c| DVec3::new(c[0][i], c[1][i], c[2][i]));
-    let is_outside = outward.dot(incident) <= 0.0;
+    let is_outside = offset::is_outside(outward, incident);
     let medium = Medium::new(wave.outcomes.part[i], surface);
     let media = wave.paths.media.at(i);
     let is_same = last.as_ref().is_some_and(|last| {
@@ -318,8 +318,7 @@ impl Task for Turn<'_> {
 fn mirror(s: &mut Senders, first: usize) {
     for k in first..first + GROUP {
         let (incident, outward) = (place(&s.incident, k), place(&s.outward, k));
-        let is_outside = outward.dot(incident) <= 0.0;
-        let normal = select(is_outside, outward, -outward);
+        let normal = offset::facing(outward, incident);
         // From here on they are the normals on the ray's side.
         for axis in 0..3 {
             s.outward[axis][k] = normal[axis];

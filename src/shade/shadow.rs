@@ -208,7 +208,7 @@ fn pass(
     let next = straight_on(ray, hit);
     if next.t_max > 0.0 {
         let medium = Medium::new(hit.part, surface);
-        let is_entering = hit.normal.dot(ray.direction) <= 0.0;
+        let is_entering = offset::is_outside(hit.normal, ray.direction);
         further.rays.push(&next);
         further
             .media
@@ -219,8 +219,7 @@ fn pass(
 
 /// The rest of a ray behind what it hit.
 fn straight_on(ray: &Ray, hit: &Outcome) -> Ray {
-    let is_entering = hit.normal.dot(ray.direction) <= 0.0;
-    let far_side = if is_entering { -hit.normal } else { hit.normal };
+    let far_side = -offset::facing(hit.normal, ray.direction);
     let next = offset::leaving(hit, far_side, ray.direction, ray.footprint);
     let advance = (next.origin - ray.origin).dot(ray.direction);
     Ray {

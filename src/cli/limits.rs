@@ -1,7 +1,7 @@
 //! `fieldstone limits`: where methods fail.
 
 use super::console::{answer, say};
-use super::failure::{Failure, reason};
+use super::failure::Failure;
 use super::limits_matrix::{Cell, Limit, Matrix};
 use super::tracing;
 use crate::lang::{self, LoadError, Loaded};
@@ -107,7 +107,7 @@ impl Header {
 fn limit(path: &Path, methods: &[Method]) -> Result<Limit, Failure> {
     let shown = path.display();
     let text = fs::read_to_string(path)
-        .map_err(|error| Failure::Other(format!("cannot read `{shown}`: {}", reason(&error))))?;
+        .map_err(|error| Failure::reading(&format!("`{shown}`"), &error))?;
     let Some(header) = Header::of(&text) else {
         let wanted = "`// 14. Name: what fails and why`";
         return Err(Failure::Other(format!(

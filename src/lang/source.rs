@@ -87,15 +87,6 @@ impl Sources {
             .unwrap_or("")
     }
 
-    /// Line and column of the first byte of `span`, both from 1; columns count characters.
-    pub fn line_column(&self, span: Span) -> (usize, usize) {
-        let source = self.get(span.file);
-        let line = self.line(span);
-        let start = source.lines[line - 1] as usize;
-        let before = &source.text[start..span.start as usize];
-        (line, before.chars().count() + 1)
-    }
-
     /// The line of the first byte of `span`, from 1.
     pub fn line(&self, span: Span) -> usize {
         let lines = &self.get(span.file).lines;

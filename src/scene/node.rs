@@ -539,11 +539,6 @@ impl Node {
         deeper.or(Some((self, region)))
     }
 
-    /// A Lipschitz constant of the field in the ball about `centre`; infinite where none is known.
-    pub fn lipschitz_within(&self, centre: [f64; 3], radius: f64) -> f64 {
-        self.lipschitz_over(Bounds::new(centre, centre).inflate(radius))
-    }
-
     /// The gradient of the field as a graph with three outputs; none for what is too large to be worth it.
     pub fn gradient(&self) -> Option<Graph> {
         (self.size <= Self::MAX_GRADIENT).then(|| gradient(self))

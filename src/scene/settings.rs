@@ -3,8 +3,9 @@
 /// Which way rays find surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
-    /// Spheres, planes, boxes and triangles analytically, convex shapes by their slope, the rest by certified sphere tracing in lanes,
-    /// through combinations that are thinned out.
+    /// Spheres, ellipsoids, planes, boxes, cylinders, capsules, tori, triangles and hard combinations of the convex ones in closed
+    /// form, other convex shapes by tangents, the rest by certified sphere tracing in lanes, through combinations that are thinned
+    /// out.
     Auto,
     /// Certified sphere tracing everywhere: hits are changes of sign.
     Certified,

@@ -57,6 +57,18 @@ impl Operation {
     /// The field of the operation on two fields, joined by `blend`.
     #[inline(always)]
     pub fn join<B: Blend, N: Number>(self, blend: &B, a: N, b: N) -> N {
+        let value = self.joined(blend, a, b);
+        if !N::HAS_ERRORS {
+            return value;
+        }
+        // Errors of the fields change it by at most the sum of its partial derivatives times each. The formulas of most
+        // blends use each field twice and would double them.
+        let alone = self.joined(blend, a.computed_alone(), b.computed_alone());
+        value.with_slope(alone, |[a, b]| blend.lipschitz(a, b), [a, b])
+    }
+
+    #[inline(always)]
+    fn joined<B: Blend, N: Number>(self, blend: &B, a: N, b: N) -> N {
         match self {
             Self::Union | Self::Joint => blend.union(a, b),
             Self::Intersection => -blend.union(-a, -b),

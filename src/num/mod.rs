@@ -1,7 +1,8 @@
 //! Floor 0: the numbers that a field can be evaluated over, and vectors of them.
 //!
 //! A distance function is written once over [`Number`]; which type it runs on decides what comes out: `f64` a value,
-//! [`Lanes`] many values at once, [`Dual`] a value with exact derivatives, [`Interval`] the range over a region.
+//! [`Lanes`] many values at once, [`Dual`] a value with exact derivatives, [`Interval`] the range over a region, [`Rounded`]
+//! how far `f32` can be off there.
 
 mod columns;
 mod dual;
@@ -12,6 +13,7 @@ mod lanes;
 mod lattice;
 mod lattice_range;
 mod number;
+mod rounded;
 #[cfg(test)]
 pub(crate) mod samples;
 mod scalar;
@@ -24,5 +26,6 @@ pub use interval::Interval;
 pub use lanes::{F32x64, F64x32, Lanes};
 pub use lattice::Lattice;
 pub use number::Number;
+pub use rounded::Rounded;
 pub use steep::Steep;
 pub use vector::Vec3;

@@ -19,6 +19,10 @@ pub trait Number:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
+    /// Whether the numbers carry bounds of their errors. Then [`Number::with_slope`] says more than the operations that a
+    /// function is made of.
+    const HAS_ERRORS: bool = false;
+
     /// The constant `x` (rounded to the type; in an interval, an interval that contains `x`).
     fn splat(x: f64) -> Self;
 
@@ -187,6 +191,19 @@ pub trait Number:
     #[inline(always)]
     fn lattice_slope(lattice: Lattice, x: Self, y: Self, z: Self) -> [Self; 3] {
         lattice::slope(lattice, x, y, z)
+    }
+
+    /// The numbers that are computed, as if they were exact; only for numbers with errors not the number itself.
+    #[inline(always)]
+    fn computed_alone(self) -> Self {
+        self
+    }
+
+    /// `self`, the value of a function of the numbers `of`, which by itself changes by at most `change` of the errors of
+    /// both; `alone` is its value of [`Number::computed_alone`] of both. Only for numbers with errors not the value itself.
+    #[inline(always)]
+    fn with_slope(self, _alone: Self, _change: impl Fn([f64; 2]) -> f64, _of: [Self; 2]) -> Self {
+        self
     }
 
     /// `self - floor(self)`, in [0, 1] (1 where a small negative number rounds to it).

@@ -25,7 +25,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 pub struct Rounded {
     /// Holds every exact value.
     range: Interval,
-    /// Holds every computed value; where it is `ENTIRE`, NaN too. Half-open after the `min` or `max` with such a number.
+    /// Holds every computed value; where it is `ENTIRE`, NaN too. Half-open after the `min` or `max` with such a
+    /// number.
     computed: Interval,
     error: f64,
 }

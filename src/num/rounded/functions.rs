@@ -130,13 +130,16 @@ impl Rounded {
 impl Number for Rounded {
     const HAS_ERRORS: bool = true;
 
+    /// What is infinite in `f32` is no number to compute with, but `min` and `max` pass over it.
     fn splat(x: f64) -> Self {
-        let computed = f64::from(x as f32);
-        Self::of(
-            Interval::point(x),
-            Interval::point(computed),
-            (x - computed).abs(),
-        )
+        let (range, computed) = (Interval::point(x), Interval::point(f64::from(x as f32)));
+        if !is_in_reach(computed) {
+            return Self {
+                computed,
+                ..Self::lost(range)
+            };
+        }
+        Self::of(range, computed, apart(range, computed))
     }
 
     /// One that is lost says nothing about the upper end: NaN is passed over.

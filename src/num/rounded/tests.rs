@@ -254,6 +254,8 @@ fn what_is_unknown_stays_within_what_holds_it() {
         "the sine of infinity is not a number"
     );
     assert_near(unknown.clamp(zero, one).error(), 1.0);
+    assert_eq!(Rounded::splat(f64::INFINITY).min(x).error(), x.error());
+    assert_eq!(x.max(Rounded::splat(-1e39)).error(), x.error());
     let large = Rounded::splat(1e30);
     assert_eq!((large * large).error(), f64::INFINITY);
     assert_eq!(Rounded::splat(f64::NAN).error(), f64::INFINITY);

@@ -115,7 +115,8 @@ fn expressions_are_off_by_no_more() {
             if !tree.all_steps(exact, f64::is_finite) {
                 continue;
             }
-            let computed: f32 = tree.value(p.map(|(_, computed)| computed));
+            let near = p.map(|(_, computed)| computed);
+            let computed: f32 = tree.value(near);
             let wrong = verify(bound, tree.value(exact), computed, &mut seen);
             assert!(
                 wrong.is_none(),
@@ -146,7 +147,8 @@ fn bounds_on_small_regions_are_near_the_errors_seen() {
         for _ in 0..60 {
             let p = at.map(|x| values(x, &mut samples));
             let exact = p.map(|(exact, _)| exact);
-            let computed: f32 = tree.value(p.map(|(_, computed)| computed));
+            let near = p.map(|(_, computed)| computed);
+            let computed: f32 = tree.value(near);
             let wrong = verify(bound, tree.value(exact), computed, &mut seen);
             assert!(wrong.is_none() || !tree.all_steps(exact, f64::is_finite));
         }

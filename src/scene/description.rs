@@ -2,7 +2,7 @@
 //!
 //! What follows from it is left out (certificates, recorded graphs), and so are names and places in the script.
 
-use super::{Material, Node, Scene, Shape};
+use super::{Material, Node, Scene, Shape, Term};
 use std::collections::HashMap;
 use std::fmt::{self, Write};
 use std::sync::Arc;
@@ -47,9 +47,13 @@ impl Describer<'_> {
             Shape::Modifier(modifier, _) => write!(self.out, "{modifier:?}")?,
             Shape::Displacement(_) => self.out.write_str("displace")?,
         }
+        self.children(node.children())
+    }
+
+    fn children(&mut self, nodes: &[Arc<Node>]) -> fmt::Result {
         self.out.write_char('(')?;
-        for child in node.children() {
-            self.node(child)?;
+        for node in nodes {
+            self.node(node)?;
         }
         self.out.write_str(")\n")
     }
@@ -57,16 +61,49 @@ impl Describer<'_> {
     fn material(&mut self, material: &Arc<Material>) -> fmt::Result {
         let next = self.materials.len();
         let number = *self.materials.entry(Arc::as_ptr(material)).or_insert(next);
-        match number == next {
-            true => write!(self.out, "paint {number} {material:?} "),
-            false => write!(self.out, "paint {number} "),
+        write!(self.out, "paint {number} ")?;
+        if number < next {
+            return Ok(());
+        }
+        let Material {
+            name: _,
+            color,
+            ambient,
+            diffuse,
+            specular,
+            shininess,
+            model,
+            reflect,
+            refract,
+            ior,
+            fresnel,
+            absorb,
+            shadow,
+        } = &**material;
+        self.term(color)?;
+        self.term(absorb)?;
+        for number in [ambient, diffuse, specular, shininess, reflect, refract, ior] {
+            self.term(number)?;
+        }
+        write!(self.out, "{model:?} {fresnel} {shadow:?} ")
+    }
+
+    /// Writes a term of a material, a pattern with the shapes that it asks.
+    fn term<T: fmt::Debug>(&mut self, term: &Term<T>) -> fmt::Result {
+        match term {
+            Term::Constant(value) => write!(self.out, "{value:?} "),
+            Term::Pattern(graph) => {
+                self.out.write_str("pattern ")?;
+                graph.describe(self.out)?;
+                self.children(graph.shapes())
+            }
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Camera, Light, Settings, Source};
+    use super::super::{Camera, GraphBuilder, Light, Mark, Settings, Source};
     use super::*;
     use crate::catalogue::{AnyModifier, AnyPrimitive, Sphere, Translate};
     use glam::DVec3;
@@ -91,7 +128,7 @@ mod tests {
         };
         let plain = scene(1.0, 2.0);
         let painted = |color: f64| {
-            let color = super::super::Term::Constant(DVec3::splat(color));
+            let color = Term::Constant(DVec3::splat(color));
             let paint = Material {
                 color,
                 ..Material::default()
@@ -147,5 +184,34 @@ mod tests {
             ..plain.clone()
         };
         assert_eq!(text(&plain), text(&named));
+    }
+
+    /// A ball with a pattern: a number plus the field of another ball.
+    fn patterned(number: f64, radius: f64, (name, mark): (&str, u64)) -> Scene {
+        let mut builder = GraphBuilder::new();
+        builder.mark(Mark(mark));
+        let p = builder.point();
+        let (number, field) = (
+            builder.constant(number),
+            builder.shape(&ball(radius, 0.0), p),
+        );
+        let sum = builder.add(number, field);
+        let paint = Material {
+            name: name.into(),
+            diffuse: Term::Pattern(Arc::new(builder.finish(&[sum]))),
+            ..Material::default()
+        };
+        Scene {
+            shown: vec![ball(1.0, 2.0).painted(Arc::new(paint))],
+            ..Scene::default()
+        }
+    }
+
+    #[test]
+    fn patterns_count_by_what_they_compute() {
+        let plain = text(&patterned(0.5, 3.0, ("pearl", 1)));
+        assert_eq!(plain, text(&patterned(0.5, 3.0, ("shell", 2))));
+        assert_ne!(plain, text(&patterned(0.25, 3.0, ("pearl", 1))));
+        assert_ne!(plain, text(&patterned(0.5, 2.0, ("pearl", 1))));
     }
 }

@@ -119,9 +119,4 @@ impl Function {
             _ => 1,
         }
     }
-
-    /// The function that scripts call `name`.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|f| f.name() == name)
-    }
 }

@@ -157,11 +157,6 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         }
     }
 
-    /// The stages that the scene compiled in.
-    pub fn features(&self) -> Features {
-        self.features
-    }
-
     /// Finds the first surface on each ray, as far as one sees through the fog.
     fn nearest(&self, rays: &Rays, found: &mut Outcomes) {
         let Some(fog) = &self.fog else {

@@ -2,8 +2,9 @@
 //!
 //! A distance function is written once over [`Number`]; which type it runs on decides what comes out: `f64` a value,
 //! [`Lanes`] many values at once, [`Dual`] a value with exact derivatives, [`Interval`] the range over a region, [`Rounded`]
-//! how far `f32` can be off there.
+//! how far `f32` can be off there, [`Bent`] how far the field can bend.
 
+mod bent;
 mod columns;
 mod dual;
 mod float;
@@ -20,6 +21,7 @@ mod scalar;
 mod steep;
 mod vector;
 
+pub use bent::Bent;
 pub use columns::Columns;
 pub use dual::Dual;
 pub use interval::Interval;

@@ -16,7 +16,7 @@ pub struct Steep {
 }
 
 /// A product of bounds, rounded up, in which zero times infinity is zero.
-fn times(a: f64, b: f64) -> f64 {
+pub(super) fn times(a: f64, b: f64) -> f64 {
     if a == 0.0 || b == 0.0 {
         0.0
     } else {
@@ -25,7 +25,7 @@ fn times(a: f64, b: f64) -> f64 {
 }
 
 /// The length of a vector whose components are at most these, rounded up.
-fn length(components: impl IntoIterator<Item = f64>) -> f64 {
+pub(super) fn length(components: impl IntoIterator<Item = f64>) -> f64 {
     let length = components.into_iter().fold(0.0, f64::hypot);
     // Each `hypot` is off by at most one number.
     length.next_up().next_up().next_up()
@@ -82,7 +82,7 @@ impl Steep {
 
 /// The largest norm of the Jacobian of the operands: at most the root of the largest row sum of J J^T in absolute
 /// values, of which the entries on the diagonal are the squared slopes; exact where the gradients are orthogonal.
-fn norm(operands: &[Steep]) -> f64 {
+pub(super) fn norm(operands: &[Steep]) -> f64 {
     let product =
         |a: &Steep, b: &Steep| -> f64 { dot(a, b).magnitude().min(times(a.slope, b.slope)) };
     let row = |i: usize| -> f64 {
@@ -107,7 +107,7 @@ fn joined(a: &Steep, b: &Steep, sign: f64) -> f64 {
 }
 
 /// The range of the scalar product of two gradients.
-fn dot(a: &Steep, b: &Steep) -> Interval {
+pub(super) fn dot(a: &Steep, b: &Steep) -> Interval {
     let pairs = a.range.partial.into_iter().zip(b.range.partial);
     pairs.fold(Interval::point(0.0), |sum, (x, y)| sum + x * y)
 }

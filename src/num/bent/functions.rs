@@ -1,0 +1,223 @@
+//! The functions of numbers with bends.
+
+use super::{Bent, ZERO, around_zero, common, crossed, length, norm, times};
+use crate::num::{Interval, Lattice, Number, Steep};
+
+/// Whether the first is the smaller one, where ranges say.
+fn is_less(a: &Bent, b: &Bent) -> Option<bool> {
+    let (a, b) = (a.value(), b.value());
+    (a.hi < b.lo || a.lo >= b.hi).then_some(a.hi < b.lo)
+}
+
+impl Bent {
+    /// 1 / self, where it is not 0.
+    pub(super) fn reciprocal(self) -> Self {
+        let inverse = Interval::point(1.0) / self.value();
+        let square = inverse.square();
+        let steep = Steep::splat(1.0) / self.steep;
+        self.smooth(steep, -square, Interval::point(2.0) * inverse * square)
+    }
+
+    /// `self^e` for a constant exponent and numbers that are not negative, or positive where the power is infinite at 0.
+    fn constant_power(self, steep: Steep, e: f64) -> Self {
+        let x = self.value();
+        if x.lo < 0.0 || e < 0.0 && x.lo == 0.0 {
+            return Self::unknown(steep);
+        }
+        let point = Interval::point;
+        let (e1, e2) = (point(e) - point(1.0), point(e) - point(2.0));
+        let first = point(e) * x.pow(e1);
+        let second = point(e) * e1 * x.pow(e2);
+        self.smooth(steep, first, second)
+    }
+}
+
+impl Number for Bent {
+    fn splat(x: f64) -> Self {
+        Self::new(Steep::splat(x), ZERO)
+    }
+
+    fn min(self, o: Self) -> Self {
+        -(-self).max(-o)
+    }
+
+    /// The larger of two is bent upwards at its kinks, and else as one of the two.
+    fn max(self, o: Self) -> Self {
+        let steep = self.steep.max(o.steep);
+        let bend = match is_less(&self, &o) {
+            Some(true) => o.bend,
+            Some(false) => self.bend,
+            None => Interval {
+                lo: self.bend.lo.min(o.bend.lo),
+                hi: f64::INFINITY,
+            },
+        };
+        Self::new(steep, bend)
+    }
+
+    fn abs(self) -> Self {
+        let (steep, range) = (self.steep.abs(), self.value());
+        let bend = if range.lo >= 0.0 {
+            self.bend
+        } else if range.hi <= 0.0 {
+            -self.bend
+        } else {
+            Interval {
+                lo: self.bend.lo.min(-self.bend.hi),
+                hi: f64::INFINITY,
+            }
+        };
+        Self::new(steep, bend)
+    }
+
+    fn sqrt(self) -> Self {
+        let steep = self.steep.sqrt();
+        let inverse = Interval::point(0.5) / steep.value();
+        let second = -(inverse.square() / steep.value());
+        self.smooth(steep, inverse, second)
+    }
+
+    fn floor(self) -> Self {
+        let steep = self.steep.floor();
+        Self::new(steep, self.value().floor_slope())
+    }
+
+    fn sin(self) -> Self {
+        let (sine, cosine) = self.value().sin_cos();
+        self.smooth(self.steep.sin(), cosine, -sine)
+    }
+
+    fn cos(self) -> Self {
+        let (sine, cosine) = self.value().sin_cos();
+        self.smooth(self.steep.cos(), -sine, -cosine)
+    }
+
+    /// The gradient of the angle at the distance r is 1 / r long, its second derivatives are within 1 / r^2.
+    fn atan2(self, x: Self) -> Self {
+        let steep = self.steep.atan2(x.steep);
+        let jumps = self.value().atan2_slope(x.value(), ZERO) == Interval::ENTIRE;
+        let nearest = self.value().hypot(x.value()).lo;
+        if jumps || nearest <= 0.0 {
+            return Self::unknown(steep);
+        }
+        let bends = length([self, x].map(|q| q.bend.magnitude()));
+        let turn = norm(&[self.steep, x.steep]) / nearest;
+        let most = times(turn, turn) + (bends / nearest).next_up();
+        // Three more roundings.
+        Self::new(steep, around_zero(most * (1.0 + 1e-15)))
+    }
+
+    fn exp(self) -> Self {
+        let steep = self.steep.exp();
+        self.smooth(steep, steep.value(), steep.value())
+    }
+
+    fn ln(self) -> Self {
+        let inverse = Interval::point(1.0) / self.value();
+        self.smooth(self.steep.ln(), inverse, -inverse.square())
+    }
+
+    fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self {
+        let steep = Steep::select_lt(a.steep, b.steep, x.steep, y.steep);
+        match is_less(&a, &b) {
+            Some(true) => x,
+            Some(false) => y,
+            None => Self::unknown(steep),
+        }
+    }
+
+    fn square(self) -> Self {
+        let first = self.value() + self.value();
+        self.smooth(self.steep.square(), first, Interval::point(2.0))
+    }
+
+    /// Within [0, 1] the bends are mixed too: their ends are linear in the share.
+    fn mix(self, a: Self, b: Self) -> Self {
+        let steep = self.steep.mix(a.steep, b.steep);
+        let (share, rise) = (self.value(), b - a);
+        let product = a + rise * self;
+        if share.lo < 0.0 || share.hi > 1.0 {
+            return Self::new(steep, product.bend);
+        }
+        let at = |t: f64| {
+            let rest = Interval::point(1.0) - Interval::point(t);
+            rest * a.bend + Interval::point(t) * b.bend
+        };
+        let between = at(share.lo).hull(at(share.hi));
+        let bend = between + rise.value() * self.bend + crossed(&rise.steep, &self.steep);
+        Self::new(steep, common(bend, product.bend))
+    }
+
+    fn ease(self) -> Self {
+        let point = Interval::point;
+        let from_middle = self.value() - point(0.5);
+        let first = point(1.5) - point(6.0) * from_middle.square();
+        self.smooth(self.steep.ease(), first, point(-12.0) * from_middle)
+    }
+
+    fn hypot(self, o: Self) -> Self {
+        Self::length(self.steep.hypot(o.steep), [self, o])
+    }
+
+    fn norm3(x: Self, y: Self, z: Self) -> Self {
+        Self::length(Steep::norm3(x.steep, y.steep, z.steep), [x, y, z])
+    }
+
+    fn pow(self, e: Self) -> Self {
+        let steep = self.steep.pow(e.steep);
+        let exponent = e.value();
+        if exponent.lo == exponent.hi {
+            return self.constant_power(steep, exponent.lo);
+        }
+        if self.value().lo <= 0.0 {
+            return Self::unknown(steep);
+        }
+        Self::new(steep, (e * self.ln()).exp().bend)
+    }
+
+    fn powi(self, n: i32) -> Self {
+        let (steep, x) = (self.steep.powi(n), self.value());
+        let point = |n: i32| Interval::point(n.into());
+        match n {
+            0 => Self::splat(1.0),
+            1 => self,
+            2 => self.square(),
+            _ if n < 0 && x.contains(0.0) => Self::unknown(steep),
+            _ => {
+                let first = point(n) * x.powi(n.saturating_sub(1));
+                let second = point(n) * point(n.saturating_sub(1)) * x.powi(n.saturating_sub(2));
+                self.smooth(steep, first, second)
+            }
+        }
+    }
+
+    fn tan(self) -> Self {
+        let steep = self.steep.tan();
+        let first = Interval::point(1.0) + steep.value().square();
+        let second = Interval::point(2.0) * steep.value() * first;
+        self.smooth(steep, first, second)
+    }
+
+    fn asin(self) -> Self {
+        let first = Interval::point(1.0) / self.value().cathetus();
+        let second = self.value() * (first.square() * first);
+        self.smooth(self.steep.asin(), first, second)
+    }
+
+    fn acos(self) -> Self {
+        let first = Interval::point(1.0) / self.value().cathetus();
+        let second = self.value() * (first.square() * first);
+        self.smooth(self.steep.acos(), -first, -second)
+    }
+
+    fn cathetus(self) -> Self {
+        let steep = self.steep.cathetus();
+        let inverse = Interval::point(1.0) / self.value().cathetus();
+        let second = -(inverse.square() * inverse);
+        self.smooth(steep, -(self.value() * inverse), second)
+    }
+
+    fn lattice(lattice: Lattice, x: Self, y: Self, z: Self) -> Self {
+        Self::unknown(Steep::lattice(lattice, x.steep, y.steep, z.steep))
+    }
+}

@@ -58,6 +58,12 @@ pub trait Blend: super::Declared {
         None
     }
 
+    /// For a smooth minimum, a concave function `(a + b) / 2 - f(a - b)` of the fields with partial derivatives that are
+    /// not negative: the largest second derivative of f. Infinite where it has none, or nothing is known.
+    fn curvature(&self) -> f64 {
+        f64::INFINITY
+    }
+
     /// Whether it is the minimum itself.
     fn is_hard(&self) -> bool {
         false

@@ -70,11 +70,21 @@ impl Operation {
     #[inline(always)]
     fn joined<B: Blend, N: Number>(self, blend: &B, a: N, b: N) -> N {
         match self {
-            Self::Union | Self::Joint => blend.union(a, b),
-            Self::Intersection => -blend.union(-a, -b),
-            Self::Difference => -blend.union(-a, b),
+            Self::Union | Self::Joint => united(blend, a, b),
+            Self::Intersection => -united(blend, -a, -b),
+            Self::Difference => -united(blend, -a, b),
         }
     }
+}
+
+/// The union, which a smooth minimum bends less than the formulas of most blends say, op by op.
+#[inline(always)]
+fn united<B: Blend, N: Number>(blend: &B, a: N, b: N) -> N {
+    let value = blend.union(a, b);
+    if N::HAS_BENDS {
+        return value.with_curvature(blend.curvature(), [a, b]);
+    }
+    value
 }
 
 /// An operation with its blend: folds several fields from first to last.

@@ -23,6 +23,10 @@ pub trait Number:
     /// function is made of.
     const HAS_ERRORS: bool = false;
 
+    /// Whether the numbers carry bounds of second derivatives. Then [`Number::with_curvature`] says more than the
+    /// operations that a function is made of.
+    const HAS_BENDS: bool = false;
+
     /// The constant `x` (rounded to the type; in an interval, an interval that contains `x`).
     fn splat(x: f64) -> Self;
 
@@ -203,6 +207,13 @@ pub trait Number:
     /// both; `alone` is its value of [`Number::computed_alone`] of both. Only for numbers with errors not the value itself.
     #[inline(always)]
     fn with_slope(self, _alone: Self, _change: impl Fn([f64; 2]) -> f64, _of: [Self; 2]) -> Self {
+        self
+    }
+
+    /// `self`, a smooth minimum of the two numbers `of`: concave, with partial derivatives that are not negative and sum to
+    /// 1, and bent by at most `curvature` along their difference. Only for numbers with bends not the value itself.
+    #[inline(always)]
+    fn with_curvature(self, _curvature: f64, _of: [Self; 2]) -> Self {
         self
     }
 

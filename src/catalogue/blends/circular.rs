@@ -24,6 +24,11 @@ impl Blend for Circular {
         a.min(b) - (two - apart - (two - apart.square()).sqrt()) * N::splat(0.5 * self.k)
     }
 
+    /// By the share x = |a - b| / k it is (2 - x^2)^(-3/2) / k, largest at x = 1.
+    fn curvature(&self) -> f64 {
+        1.0 / self.k
+    }
+
     fn reach(&self, level: f64, n: usize) -> f64 {
         compact_reach(level, n, (1.0 - 0.5_f64.sqrt()) * self.k, self.k)
     }

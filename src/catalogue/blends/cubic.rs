@@ -24,6 +24,11 @@ impl Blend for Cubic {
         a.min(b) - share.square() * overlap * N::splat(1.0 / 6.0)
     }
 
+    /// (k - |x|) / k^2, largest in the middle.
+    fn curvature(&self) -> f64 {
+        1.0 / self.k
+    }
+
     fn reach(&self, level: f64, n: usize) -> f64 {
         compact_reach(level, n, self.k / 6.0, self.k)
     }

@@ -24,6 +24,11 @@ impl Blend for Exponential {
         a.min(b) - (N::splat(1.0) + share).ln() * N::splat(self.k / LN_2)
     }
 
+    /// With the shares p and 1 - p of the two powers it is p (1 - p) ln(2) / k.
+    fn curvature(&self) -> f64 {
+        0.25 * LN_2 / self.k
+    }
+
     fn reach(&self, level: f64, n: usize) -> f64 {
         // Of n equal fields; the blend is associative.
         level + self.k * (n as f64).log2()

@@ -23,6 +23,11 @@ impl Blend for Smooth {
         a.min(b) - overlap.square() * N::splat(over(0.25, self.k))
     }
 
+    /// The same wherever the fields differ by less than k.
+    fn curvature(&self) -> f64 {
+        0.5 / self.k
+    }
+
     fn reach(&self, level: f64, n: usize) -> f64 {
         compact_reach(level, n, 0.25 * self.k, self.k)
     }

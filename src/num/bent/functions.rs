@@ -33,6 +33,8 @@ impl Bent {
 }
 
 impl Number for Bent {
+    const HAS_BENDS: bool = true;
+
     fn splat(x: f64) -> Self {
         Self::new(Steep::splat(x), ZERO)
     }
@@ -215,6 +217,21 @@ impl Number for Bent {
         let inverse = Interval::point(1.0) / self.value().cathetus();
         let second = -(inverse.square() * inverse);
         self.smooth(steep, -(self.value() * inverse), second)
+    }
+
+    /// The derivatives of u(a, b) add up to 1, so the bends of a and b are mixed, and less by at most the curvature times
+    /// the square of (a - b)'.
+    fn with_curvature(self, curvature: f64, of: [Self; 2]) -> Self {
+        if curvature == f64::INFINITY {
+            return self;
+        }
+        let [a, b] = of;
+        let most = (b - a).squares() * Interval::point(curvature);
+        let bend = Interval {
+            lo: (a.bend.lo.min(b.bend.lo) - most.hi).next_down(),
+            hi: a.bend.hi.max(b.bend.hi),
+        };
+        Self::new(self.steep, common(bend, self.bend))
     }
 
     fn lattice(lattice: Lattice, x: Self, y: Self, z: Self) -> Self {

@@ -3,30 +3,26 @@
 //!
 //! `f32` alone gives the bits of its lanes (`tests/catalogue`).
 
+#[path = "catalogue/entries.rs"]
+mod entries;
 #[allow(dead_code)]
 #[path = "catalogue/samples.rs"]
 mod samples;
 mod stub;
 
+use entries::{REACH, entries_and_fields, object, part, region};
 use fieldstone::catalogue::*;
 use fieldstone::field::{Closure, compile};
-use fieldstone::lang;
 use fieldstone::num::{Interval, Rounded, Vec3};
 use fieldstone::scene::Node;
-use samples::{Dice, blends, in_space, leaf, leaves, modifiers, operations, placed};
-use std::path::Path;
-use std::sync::Arc;
+use samples::Dice;
 use std::time::Instant;
-use stub::Marcher;
 
 /// The unit roundoff of `f32`.
 const UNIT: f64 = 1.0 / (1 << 24) as f64;
 
 /// By how many units, of the largest coordinate, coordinates are off.
 const COORDINATE_UNITS: f64 = 16.0;
-
-/// Regions are clipped to so much on each side of the origin.
-const REACH: f64 = 2.5;
 
 /// A field over all the numbers that are compared.
 struct Field {
@@ -107,95 +103,6 @@ fn near(c: f64, error: f64, dice: &mut Dice) -> f32 {
     if is_near { moved } else { c as f32 }
 }
 
-/// The box of a node and a little more, within reach.
-fn region(node: &Node) -> Bounds {
-    let most = Bounds::centred([REACH; 3]);
-    let bounds = node.bounds().intersect(most);
-    if bounds.is_empty() {
-        most
-    } else {
-        bounds.inflate(0.2).intersect(most)
-    }
-}
-
-/// A box in the region, a sixteenth as wide.
-fn part(region: &Bounds, dice: &mut Dice) -> Bounds {
-    let low: [f64; 3] = std::array::from_fn(|i| {
-        let width = region.high[i] - region.low[i];
-        region.low[i] + width * dice.between(0.0, 15.0 / 16.0)
-    });
-    let high = std::array::from_fn(|i| low[i] + (region.high[i] - region.low[i]) / 16.0);
-    Bounds::new(low, high)
-}
-
-/// A shape that is neither round nor symmetric.
-fn base() -> Arc<Node> {
-    let cuboid = leaf(
-        AnyPrimitive::DECLARATIONS
-            .iter()
-            .find(|d| d.name == "box")
-            .expect("a box"),
-        3,
-    );
-    placed(cuboid.1, &mut Dice::new(5))
-}
-
-/// Every entry of the catalogue, by name: primitives, modifiers over a box, combinations of a box and a torus.
-fn entries() -> Vec<(String, Arc<Node>)> {
-    let mut all: Vec<(String, Arc<Node>)> = leaves(2)
-        .into_iter()
-        .map(|(name, _, node)| (name.into(), in_space(node, 0.4)))
-        .collect();
-    for seed in 0..2 {
-        for modifier in modifiers(&mut Dice::new(seed)) {
-            let flat = leaves(1).into_iter().find(|(name, ..)| *name == "star");
-            let over = [base(), flat.expect("a star").2];
-            let made = over
-                .into_iter()
-                .find_map(|child| Node::modifier(modifier.clone(), child).ok());
-            let name = modifier.declaration().name;
-            all.extend(made.map(|node| (format!(".{name}"), in_space(node, 0.4))));
-        }
-        for blend in blends(&mut Dice::new(seed)) {
-            let torus = leaf(
-                AnyPrimitive::DECLARATIONS
-                    .iter()
-                    .find(|d| d.name == "torus")
-                    .expect("a torus"),
-                1,
-            );
-            for operation in operations(&blend) {
-                let combination = Combination {
-                    operation,
-                    blend: blend.clone(),
-                };
-                let name = format!("{} {}", combination.name(), blend.name());
-                let node = Node::combination(combination, vec![base(), torus.1.clone()]);
-                all.extend(node.ok().map(|node| (name, node)));
-            }
-        }
-    }
-    all
-}
-
-/// Fields of scripts.
-const FIELDS: [&str; 5] = [
-    "sin(3 * p.x) * cos(2 * p.y) + exp(-(p.z ^ 2)) - 0.7",
-    "sqrt(p.x ^ 2 + 2 * p.y ^ 2 + p.z ^ 2 + 0.1) - 1",
-    "noise(2 * p) + 0.3 * p.y",
-    "if p.x < p.y { p.x + p.z } else { p.y + p.z }",
-    "ln(2 + cos(p.x * p.y)) - abs(p.z) ^ 1.5 / 3",
-];
-
-fn shown(script: &str) -> Arc<Node> {
-    let loaded = lang::load_text("field.sdf", script, &[], &Marcher);
-    loaded
-        .unwrap_or_else(|report| panic!("{script}: {report}"))
-        .scene
-        .shown[0]
-        .clone()
-}
-
 fn middle(mut numbers: Vec<f64>) -> f64 {
     numbers.sort_by(f64::total_cmp);
     numbers[numbers.len() / 2]
@@ -203,11 +110,7 @@ fn middle(mut numbers: Vec<f64>) -> f64 {
 
 #[test]
 fn entries_of_the_catalogue_are_off_by_no_more() {
-    let mut fields = entries();
-    fields.extend(FIELDS.map(|formula| {
-        let script = format!("field f(p) lipschitz 9 {{ {formula} }}\nshow f & sphere(2)");
-        (formula.into(), shown(&script))
-    }));
+    let fields = entries_and_fields();
     let (mut unbounded, mut loose, mut ratios) = (Vec::new(), Vec::new(), Vec::new());
     for (i, (name, node)) in fields.iter().enumerate() {
         let (field, dice) = (Field::new(node), &mut Dice::new(i as u64));
@@ -252,10 +155,7 @@ fn entries_of_the_catalogue_are_off_by_no_more() {
 #[test]
 fn scenes_have_useful_bounds() {
     for (name, most) in [("s2", 50.0), ("s3", 50.0), ("s6", 50.0)] {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("benches/scenes/{name}.sdf"));
-        let alone = [("object_only".to_string(), "1".to_string())];
-        let loaded = lang::load(&path, &alone, &Marcher).unwrap_or_else(|e| panic!("{e:?}"));
-        let field = Field::new(&loaded.scene.shown[0]);
+        let field = Field::new(&object(name));
         let region = Bounds::centred([REACH; 3]);
         let measured = field.measure(&region, 40_000, &mut Dice::new(2));
         let measured = measured.unwrap_or_else(|why| panic!("{name}: {why}"));

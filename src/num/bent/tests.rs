@@ -71,7 +71,7 @@ fn bend_at(
 ) -> Option<(f64, f64)> {
     let at = |share: f64| [0, 1, 2].map(|i| p[i] + share * way[i]);
     let points = [-1.0, 0.0, 1.0].map(at);
-    let noise = points.map(|p| error(p.map(single)));
+    let noise = points.map(|at| error(at.map(single)));
     let [a, m, b] = points.map(f);
     let squared = way.into_iter().map(|c| c * c).sum::<f64>();
     let [e, d, g] = noise;

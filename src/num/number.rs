@@ -23,8 +23,8 @@ pub trait Number:
     /// function is made of.
     const HAS_ERRORS: bool = false;
 
-    /// Whether the numbers carry bounds of second derivatives. Then [`Number::with_curvature`] says more than the
-    /// operations that a function is made of.
+    /// Whether the numbers carry bounds of second derivatives. Then [`Number::with_curvature`] and
+    /// [`Number::with_convexity`] say more than the operations that a function is made of.
     const HAS_BENDS: bool = false;
 
     /// The constant `x` (rounded to the type; in an interval, an interval that contains `x`).
@@ -214,6 +214,13 @@ pub trait Number:
     /// 1, and bent by at most `curvature` along their difference. Only for numbers with bends not the value itself.
     #[inline(always)]
     fn with_curvature(self, _curvature: f64, _of: [Self; 2]) -> Self {
+        self
+    }
+
+    /// `self`, a convex function with the Lipschitz constant 1 of the point `of`. Only for numbers with bends not the value
+    /// itself.
+    #[inline(always)]
+    fn with_convexity<const K: usize>(self, _of: [Self; K]) -> Self {
         self
     }
 

@@ -24,7 +24,8 @@ impl Primitive for Rectangle {
         let zero = N::splat(0.0);
         let [w, h] = self.core;
         let (u, v) = (p.x.abs() - N::splat(w), p.y.abs() - N::splat(h));
-        u.max(zero).hypot(v.max(zero)) + u.max(v).min(zero) - N::splat(self.round)
+        let distance = u.max(zero).hypot(v.max(zero)) + u.max(v).min(zero) - N::splat(self.round);
+        distance.with_convexity([p.x, p.y])
     }
 
     fn sublevel(&self, level: f64) -> Bounds {

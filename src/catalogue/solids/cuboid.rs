@@ -23,7 +23,8 @@ impl Primitive for Cuboid {
     fn distance<N: Number>(&self, p: &Vec3<N>) -> N {
         let q = p.abs() - Vec3::splat(self.core);
         let outside = q.each(|c| c.max(N::splat(0.0))).length();
-        outside + q.max_component().min(N::splat(0.0)) - N::splat(self.round)
+        let distance = outside + q.max_component().min(N::splat(0.0)) - N::splat(self.round);
+        distance.with_convexity([p.x, p.y, p.z])
     }
 
     fn sublevel(&self, level: f64) -> Bounds {

@@ -26,7 +26,9 @@ impl Primitive for Cylinder {
         let zero = N::splat(0.0);
         let side = p.x.hypot(p.z) - N::splat(self.core[0]);
         let cap = p.y.abs() - N::splat(self.core[1]);
-        side.max(zero).hypot(cap.max(zero)) + side.max(cap).min(zero) - N::splat(self.round)
+        let outside = side.max(zero).hypot(cap.max(zero));
+        let distance = outside + side.max(cap).min(zero) - N::splat(self.round);
+        distance.with_convexity([p.x, p.y, p.z])
     }
 
     fn sublevel(&self, level: f64) -> Bounds {

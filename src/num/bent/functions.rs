@@ -234,6 +234,16 @@ impl Number for Bent {
         Self::new(self.steep, common(bend, self.bend))
     }
 
+    /// A convex function is the largest of the linear functions that touch it from below, and those are bent by no more
+    /// than the point, since none is steeper than 1.
+    fn with_convexity<const K: usize>(self, of: [Self; K]) -> Self {
+        let bend = Interval {
+            lo: -length(of.map(|q| q.bend.magnitude())),
+            hi: f64::INFINITY,
+        };
+        Self::new(self.steep, common(bend, self.bend))
+    }
+
     fn lattice(lattice: Lattice, x: Self, y: Self, z: Self) -> Self {
         Self::unknown(Steep::lattice(lattice, x.steep, y.steep, z.steep))
     }

@@ -275,6 +275,12 @@ fn distance_to_a_box_is_convex() {
     // Op by op the inner part may have a kink the other way.
     assert_eq!(field.low(), f64::NEG_INFINITY);
     assert_bends(Bent::norm3(u, v, w), [0.0, f64::INFINITY]);
+    let infinity = f64::INFINITY;
+    assert_bends(field.with_convexity(variables(region)), [0.0, infinity]);
+    // Over a bent space: no more than the point bends.
+    let [x, y, z] = variables(region);
+    let bent = [x.square(), y, z];
+    assert_bends(field.with_convexity(bent), [-2.0, infinity]);
 }
 
 #[test]

@@ -88,6 +88,10 @@ pub trait Float:
     /// The square root, correctly rounded.
     fn sqrt(self) -> Self;
 
+    /// The largest whole number not above; keeps the sign of zero, infinities and NaN. One instruction where the processor has
+    /// one (from SSE4.1 on), a call of the library elsewhere.
+    fn floor(self) -> Self;
+
     /// The absolute value of `self` with the sign bit of `sign`.
     fn with_sign_of(self, sign: Self) -> Self;
 
@@ -155,6 +159,11 @@ macro_rules! shared {
         #[inline(always)]
         fn sqrt(self) -> Self {
             $float::sqrt(self)
+        }
+
+        #[inline(always)]
+        fn floor(self) -> Self {
+            $float::floor(self)
         }
 
         #[inline(always)]

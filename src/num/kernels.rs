@@ -43,17 +43,9 @@ fn is_nan<T: Float>(x: T) -> bool {
 }
 
 /// The largest whole number not above `x`, exact; keeps the sign of zero, infinities and NaN.
-///
-/// The standard library's is a function call on processors before SSE4.1.
 #[inline(always)]
 pub fn floor<T: Float>(x: T) -> T {
-    let nearest = ((x.abs() + T::WHOLE) - T::WHOLE).with_sign_of(x);
-    let below = if nearest > x {
-        nearest - T::ONE
-    } else {
-        nearest
-    };
-    if x.abs() < T::WHOLE { below } else { x }
+    x.floor()
 }
 
 /// Whether the kernels of sine and cosine do not reach `x`. False for NaN.

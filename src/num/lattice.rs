@@ -95,22 +95,42 @@ pub(super) fn hash_at(corner: [f64; 3]) -> f64 {
     hash_next(hash_next(hash(i), j), k)
 }
 
-/// The gradient that a corner draws: one of the twelve directions from the middle of a cube to its edges.
+/// What a corner draws: a plane across an axis (0, 1 or 2), and a sign for each of two directions in it.
 #[inline(always)]
-pub(super) fn gradient<N: Number>(h: N) -> [N; 3] {
-    let (zero, one) = (N::splat(0.0), N::splat(1.0));
+fn drawn<N: Number>(h: N) -> (N, N, N) {
+    let one = N::splat(1.0);
     let number = modulo(h, 12.0);
     let plane = (number * N::splat(0.25)).floor();
     let signs = number - plane * N::splat(4.0);
     let upper = (signs * N::splat(0.5)).floor();
     let lower = signs - upper - upper;
-    let (s, t) = (one - lower - lower, one - upper - upper);
+    (plane, one - lower - lower, one - upper - upper)
+}
+
+/// One of three numbers, by that of a plane.
+#[inline(always)]
+fn chosen<N: Number>(plane: N, x: N, y: N, z: N) -> N {
     let (first, second) = (N::splat(0.5), N::splat(1.5));
+    N::select_lt(plane, first, x, N::select_lt(plane, second, y, z))
+}
+
+/// The gradient that a corner draws: one of the twelve directions from the middle of a cube to its edges.
+#[inline(always)]
+pub(super) fn gradient<N: Number>(h: N) -> [N; 3] {
+    let zero = N::splat(0.0);
+    let (plane, s, t) = drawn(h);
     [
-        N::select_lt(plane, first, s, N::select_lt(plane, second, zero, t)),
-        N::select_lt(plane, first, t, N::select_lt(plane, second, s, zero)),
-        N::select_lt(plane, first, zero, N::select_lt(plane, second, t, s)),
+        chosen(plane, s, zero, t),
+        chosen(plane, t, s, zero),
+        chosen(plane, zero, t, s),
     ]
+}
+
+/// The product of the gradient that a corner draws and the way `(x, y, z)` from it to a point.
+#[inline(always)]
+fn height<N: Number>(h: N, x: N, y: N, z: N) -> N {
+    let (plane, s, t) = drawn(h);
+    s * chosen(plane, x, y, z) + t * chosen(plane, y, z, x)
 }
 
 /// A coordinate as the number of its cell and the place in it.
@@ -120,50 +140,93 @@ fn split<N: Number>(x: N) -> (N, N) {
     (cell(floor), x - floor)
 }
 
+/// The hashes of the corners of the cell that begins at the whole numbers `(i, j, k)`, by their places along x, y and z.
+#[inline(always)]
+fn corners<N: Number>(i: N, j: N, k: N) -> [[[N; 2]; 2]; 2] {
+    let one = N::splat(1.0);
+    let mut hashes = [[[i; 2]; 2]; 2];
+    for (right, i) in [i, i + one].into_iter().enumerate() {
+        let row = hash(i);
+        for (top, j) in [j, j + one].into_iter().enumerate() {
+            let column = hash_next(row, j);
+            for (front, k) in [k, k + one].into_iter().enumerate() {
+                hashes[right][top][front] = hash_next(column, k);
+            }
+        }
+    }
+    hashes
+}
+
+/// `a` for `t = 0`, `b` for `t = 1`, straight between.
+#[inline(always)]
+fn lerp<N: Number>([a, b]: [N; 2], t: N) -> N {
+    a + (b - a) * t
+}
+
 /// The value of gradient noise.
 #[inline(always)]
 fn noise<N: Number>(x: N, y: N, z: N) -> N {
     let one = N::splat(1.0);
     let ((i, u), (j, v), (k, w)) = (split(x), split(y), split(z));
+    let (ways_x, ways_y, ways_z) = ([u, u - one], [v, v - one], [w, w - one]);
     let (a, b, c) = (fade(u), fade(v), fade(w));
-    let mut sum = N::splat(0.0);
-    for corner in 0..8 {
-        let [right, top, front] = [corner & 1, corner >> 1 & 1, corner >> 2].map(f64::from);
-        let [r, t, f] = [N::splat(right), N::splat(top), N::splat(front)];
-        let h = hash_next(hash_next(hash(i + r), j + t), k + f);
-        let g = gradient(h);
-        let height = g[0] * (u - r) + g[1] * (v - t) + g[2] * (w - f);
-        let along_x = if right > 0.0 { a } else { one - a };
-        let along_y = if top > 0.0 { b } else { one - b };
-        let along_z = if front > 0.0 { c } else { one - c };
-        sum = sum + along_x * along_y * along_z * height;
+    let hashes = corners(i, j, k);
+    let mut sides = [x; 2];
+    for (right, side) in sides.iter_mut().enumerate() {
+        let mut edges = [x; 2];
+        for (top, edge) in edges.iter_mut().enumerate() {
+            let mut heights = [x; 2];
+            for (front, h) in heights.iter_mut().enumerate() {
+                *h = height(
+                    hashes[right][top][front],
+                    ways_x[right],
+                    ways_y[top],
+                    ways_z[front],
+                );
+            }
+            *edge = lerp(heights, c);
+        }
+        *side = lerp(edges, b);
     }
-    sum
+    lerp(sides, a)
 }
 
-/// The gradient of gradient noise.
+/// The gradient of gradient noise: the mean gradient of the corners, and along each axis the slope of the fade times how much
+/// higher one side is than the other.
 #[inline(always)]
 fn noise_slope<N: Number>(x: N, y: N, z: N) -> [N; 3] {
     let one = N::splat(1.0);
     let ((i, u), (j, v), (k, w)) = (split(x), split(y), split(z));
+    let (ways_x, ways_y, ways_z) = ([u, u - one], [v, v - one], [w, w - one]);
     let (a, b, c) = (fade(u), fade(v), fade(w));
-    let (da, db, dc) = (fade_slope(u), fade_slope(v), fade_slope(w));
-    let mut slope = [N::splat(0.0); 3];
-    for corner in 0..8 {
-        let [right, top, front] = [corner & 1, corner >> 1 & 1, corner >> 2].map(f64::from);
-        let [r, t, f] = [N::splat(right), N::splat(top), N::splat(front)];
-        let h = hash_next(hash_next(hash(i + r), j + t), k + f);
-        let g = gradient(h);
-        let height = g[0] * (u - r) + g[1] * (v - t) + g[2] * (w - f);
-        let (ax, dx) = if right > 0.0 { (a, da) } else { (one - a, -da) };
-        let (ay, dy) = if top > 0.0 { (b, db) } else { (one - b, -db) };
-        let (az, dz) = if front > 0.0 { (c, dc) } else { (one - c, -dc) };
-        let weight = ax * ay * az;
-        slope[0] = slope[0] + weight * g[0] + dx * ay * az * height;
-        slope[1] = slope[1] + weight * g[1] + ax * dy * az * height;
-        slope[2] = slope[2] + weight * g[2] + ax * ay * dz * height;
+    let hashes = corners(i, j, k);
+    // Of each side, edge and corner: the gradient, the height, and how much it rises along y and z.
+    let mut sides = [[x; 2]; 6];
+    for right in 0..2 {
+        let mut edges = [[x; 2]; 5];
+        for top in 0..2 {
+            let mut ends = [[x; 2]; 4];
+            for front in 0..2 {
+                let g = gradient(hashes[right][top][front]);
+                let height = g[0] * ways_x[right] + g[1] * ways_y[top] + g[2] * ways_z[front];
+                (ends[0][front], ends[1][front], ends[2][front]) = (g[0], g[1], g[2]);
+                ends[3][front] = height;
+            }
+            for n in 0..4 {
+                edges[n][top] = lerp(ends[n], c);
+            }
+            edges[4][top] = ends[3][1] - ends[3][0];
+        }
+        for n in 0..5 {
+            sides[n][right] = lerp(edges[n], b);
+        }
+        sides[5][right] = edges[3][1] - edges[3][0];
     }
-    slope
+    [
+        lerp(sides[0], a) + fade_slope(u) * (sides[3][1] - sides[3][0]),
+        lerp(sides[1], a) + fade_slope(v) * lerp(sides[5], a),
+        lerp(sides[2], a) + fade_slope(w) * lerp(sides[4], a),
+    ]
 }
 
 /// Where in its cell a point lies: on a grid of steps of 1/8, no nearer than 1/8 to the border.

@@ -165,7 +165,7 @@ fn lerp<N: Number>([a, b]: [N; 2], t: N) -> N {
 
 /// The value of gradient noise.
 #[inline(always)]
-fn noise<N: Number>(x: N, y: N, z: N) -> N {
+pub(super) fn noise<N: Number>(x: N, y: N, z: N) -> N {
     let one = N::splat(1.0);
     let ((i, u), (j, v), (k, w)) = (split(x), split(y), split(z));
     let (ways_x, ways_y, ways_z) = ([u, u - one], [v, v - one], [w, w - one]);
@@ -194,7 +194,7 @@ fn noise<N: Number>(x: N, y: N, z: N) -> N {
 /// The gradient of gradient noise: the mean gradient of the corners, and along each axis the slope of the fade times how much
 /// higher one side is than the other.
 #[inline(always)]
-fn noise_slope<N: Number>(x: N, y: N, z: N) -> [N; 3] {
+pub(super) fn noise_slope<N: Number>(x: N, y: N, z: N) -> [N; 3] {
     let one = N::splat(1.0);
     let ((i, u), (j, v), (k, w)) = (split(x), split(y), split(z));
     let (ways_x, ways_y, ways_z) = ([u, u - one], [v, v - one], [w, w - one]);

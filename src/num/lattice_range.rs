@@ -67,8 +67,8 @@ fn common(a: Interval, b: Interval) -> Interval {
 /// Up to here `f64` numbers the cells exactly.
 const FAR: f64 = 1e15;
 
-/// By how much the value and the slopes of noise in `f64` can be off: eight corners with a dozen roundings each, of
-/// numbers below 4.
+/// By how much the value and the slopes of noise in `f64` can be off: eight corners with a few roundings each, of numbers
+/// below 4, and mixtures of them.
 const ROUNDING: f64 = 1e-13;
 
 /// The first and last of the cells that the interval touches, if they are few.

@@ -19,8 +19,8 @@ const FARTHEST_CELL: f64 = (1 << 20) as f64;
 /// together 4. The fade is t^3 times q = t (6 t - 15) + 10, where q is off by (10 + 15 t) u, plus three roundings of the
 /// product: at most w(t) = t^3 (10 + 15 t) + 3 fade(t). It mixes two faces whose heights differ by at most 1 + 2 m + 2 n,
 /// where m and n are the means of the distances to the two sides along the other axes: the sum over the axes of
-/// w (1 + 2 m + 2 n) is at most 117 (a test finds it). Heights are at most 2 on the mean: 1 - fade takes 6 together, three
-/// roundings of each of eight products 6, heights of two terms 6, the sum of eight 16. In all 155.
+/// w (1 + 2 m + 2 n) is at most 117 (a test finds it). Heights are at most 2: their two terms take 6, each of three mixtures
+/// one after the other 10: 4 of the difference, 4 of its product, 2 of the sum. In all 157.
 ///
 /// Distance: each of x - first, - i, - place takes at most 2 u, so a way is off by 6 u an axis, 10.4 in length; the length
 /// of at most 1.49 takes 2.5 u of itself. In all 14.2.

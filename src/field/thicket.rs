@@ -7,7 +7,7 @@
 
 use super::{Closure, Level, Task, combine, compile_convex, compile_wide, run_at};
 use crate::catalogue::{Combination, Operation, with_compiled_blend};
-use crate::num::{Dual, F64x32, Number, Vec3};
+use crate::num::{Dual, F32x32, F64x32, Number, Vec3};
 use crate::scene::{Node, Shape};
 use std::sync::Arc;
 
@@ -21,6 +21,7 @@ pub struct Thicket {
 /// What is not taken apart any further.
 struct Leaf {
     value: Closure<F64x32>,
+    short: Closure<F32x32>,
     slope: Option<Closure<Dual<F64x32, 1>>>,
     lipschitz: f64,
 }
@@ -108,6 +109,7 @@ impl Thicket {
         let root = branch(node, &mut |leaf| {
             leaves.push(Leaf {
                 value: compile_wide(leaf, level),
+                short: compile_wide(leaf, level),
                 slope: (!node.has_graph()).then(|| compile_convex(leaf, level)),
                 lipschitz: lipschitz(leaf),
             });
@@ -207,6 +209,11 @@ impl Thicket {
     /// The closure of what is left.
     pub fn value(&self, left: &Thinned) -> Closure<F64x32> {
         self.closure(&left.branch, &|leaf| self.leaves[leaf].value.clone())
+    }
+
+    /// The closure of what is left, in single precision.
+    pub fn short(&self, left: &Thinned) -> Closure<F32x32> {
+        self.closure(&left.branch, &|leaf| self.leaves[leaf].short.clone())
     }
 
     /// The closure of what is left, with the derivative along a direction; none for fields with graphs.

@@ -15,6 +15,9 @@ pub struct Lanes<T, const W: usize>(pub [T; W]);
 /// 64 single precision lanes: four AVX-512 registers.
 pub type F32x64 = Lanes<f32, 64>;
 
+/// 32 single precision lanes: as many as [`F64x32`] has.
+pub type F32x32 = Lanes<f32, 32>;
+
 /// 32 double precision lanes: four AVX-512 registers.
 pub type F64x32 = Lanes<f64, 32>;
 

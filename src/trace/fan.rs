@@ -16,7 +16,7 @@ use crate::num::F64x32;
 pub(super) const STRAGGLERS: i64 = 3;
 
 /// A lane lags behind after so many evaluations.
-const PATIENCE: i64 = 24;
+pub(super) const PATIENCE: i64 = 24;
 
 /// How often a lane may be asked for 32 places before it goes on by itself.
 const MAX_FANS: usize = 256;
@@ -84,6 +84,21 @@ pub(super) fn fan(packet: &mut Packet, lane: usize, value: &Closure<F64x32>, rul
         }
         let values = value(&places(&origin, &direction, &t)).0;
         p.evaluations[lane] += WIDTH as i64;
+        // A change of sign within the tolerance needs no more, whatever lies before it.
+        let beyond = (0..WIDTH).find(|k| (values[*k] < 0.0) != (last < 0.0));
+        if let Some(k) = beyond.filter(|k| values[*k] != 0.0) {
+            let sum = last.abs() + values[k].abs();
+            if sum + slope * epsilon >= slope * (t[k] - last_t) * (1.0 - 1e-9) {
+                if k > 0 {
+                    (p.last_t[lane], p.last_value[lane]) = (t[k - 1], values[k - 1]);
+                }
+                (p.high_t[lane], p.high_value[lane]) = (t[k], values[k]);
+                p.narrowings[lane] = 0;
+                p.state[lane] = state::ENCLOSING;
+                p.t[lane] = p.last_t[lane] + 0.5 * (t[k] - p.last_t[lane]);
+                return;
+            }
+        }
         for k in 0..WIDTH {
             let now = values[k];
             let gap = t[k] - last_t;

@@ -30,6 +30,7 @@ mod rays;
 mod refuted;
 mod ring;
 mod scene_tracer;
+mod scout;
 mod single;
 mod stages;
 mod stride;

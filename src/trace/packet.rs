@@ -36,6 +36,8 @@ pub(super) mod state {
     pub const REFUTED: i64 = 7;
     /// It goes on by itself, outside of the lanes.
     pub const SINGLE: i64 = 8;
+    /// It steps through free space in single precision.
+    pub const FAR: i64 = 9;
 
     /// Whether it steps or looks for a pair of roots.
     #[inline(always)]
@@ -55,6 +57,9 @@ pub(super) mod state {
         state > IDLE && state < ARRIVED
     }
 }
+
+/// How many lanes are looked at side by side.
+const GROUP: usize = 8;
 
 /// How a tolerance is divided by the grid on which hits lie: one more evaluation than a thousandth takes, and what is
 /// computed from hits is as good as exact.
@@ -97,6 +102,8 @@ pub(super) struct Packet {
     pub(super) high_value: Lane,
     pub(super) state: [i64; WIDTH],
     pub(super) departed: [i64; WIDTH],
+    /// Whether single precision says too little where the lane is.
+    pub(super) close: [i64; WIDTH],
     pub(super) steps: [i64; WIDTH],
     pub(super) narrowings: [i64; WIDTH],
     pub(super) evaluations: [i64; WIDTH],
@@ -144,7 +151,7 @@ macro_rules! copy_lane {
         copy_lane! {
             $from, $source => $to, $lane;
             footprint spread size far grid finer start end limit t error side last_t last_value high_t high_value state departed
-            steps narrowings evaluations ray
+            close steps narrowings evaluations ray
         }
     }};
     ($from:expr, $source:expr => $to:expr, $lane:expr; $($column:ident)*) => {
@@ -214,6 +221,7 @@ impl Task for Load<'_> {
             p.side[lane] = if start > 0.0 { 1.0 } else { 0.0 };
             p.departed[lane] = i64::from(start > 0.0);
         }
+        p.close = [0; WIDTH];
         p.far = [f64::INFINITY; WIDTH];
         p.error = [0.0; WIDTH];
         p.last_t = [f64::NEG_INFINITY; WIDTH];
@@ -273,12 +281,47 @@ impl Task for Proceed<'_> {
             p.last_t[lane] = last_t;
             p.side[lane] = if skips { side } else { p.side[lane] };
             p.departed[lane] |= i64::from(skips);
+            p.close[lane] = if walks { 0 } else { p.close[lane] };
             p.limit[lane] = if walks { limit } else { p.limit[lane] };
             p.state[lane] = if walks { becomes } else { was };
             any |= walks && becomes != state::ARRIVED;
         }
         any
     }
+}
+
+/// Tells the lanes that step far from surfaces from the others; gives whether any of these goes on.
+pub(super) struct Muster<'a>(pub &'a mut Packet);
+
+impl Task for Muster<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(self) -> bool {
+        let p = self.0;
+        let mut goes = false;
+        for i in 0..WIDTH {
+            let was = p.state[i];
+            let steps = (was == state::FRESH) | (was == state::MARCHING);
+            let is_far = steps & (p.departed[i] != 0) & (p.close[i] == 0);
+            p.state[i] = if is_far { state::FAR } else { was };
+            goes |= state::is_going(p.state[i]);
+        }
+        goes
+    }
+}
+
+/// How many lanes are in such a state.
+#[inline(always)]
+pub(super) fn count(states: &[i64; WIDTH], is_such: impl Fn(i64) -> bool) -> i64 {
+    // Not one sum: it would be taken lane by lane.
+    let mut counts = [0; GROUP];
+    for first in (0..WIDTH).step_by(GROUP) {
+        for k in 0..GROUP {
+            counts[k] += i64::from(is_such(states[first + k]));
+        }
+    }
+    counts.into_iter().sum()
 }
 
 /// The numbers of the rays at these places.
@@ -330,9 +373,9 @@ impl Packet {
         self.state = [state::IDLE; WIDTH];
     }
 
-    /// The lanes that go on.
+    /// The lanes that go on, in whichever precision.
     pub fn going(&self) -> impl Iterator<Item = usize> + use<> {
-        self.lanes(state::is_going)
+        self.lanes(|state| state::is_going(state) || state == state::FAR)
     }
 
     /// The lanes that have come to the end of their stretch.

@@ -10,7 +10,7 @@ use crate::catalogue::{AnyPrimitive, Bounds, Combination, Operation, with_modifi
 use crate::field::{
     Closure, Level, Thicket, Walked, compile, compile_convex, compile_graph, compile_wide,
 };
-use crate::num::{Dual, F64x32, Interval};
+use crate::num::{Bent, Dual, F32x32, F64x32, Interval, Rounded, Vec3};
 use crate::scene::{Fault, FieldShape, Graph, Material, Method, Node, Parts, Shadow, Shape};
 use glam::DVec3;
 use std::sync::{Arc, OnceLock};
@@ -31,6 +31,20 @@ pub enum PartKind {
     Marched(Box<Marched>),
 }
 
+/// By how much a number is off that was rounded to single precision, as a share of it.
+const UNIT: f64 = 0.5 * f32::EPSILON as f64;
+
+/// By how much the place of a scout is off, in roundings of the largest coordinate. Along each axis there are one of the place where
+/// the ray comes in, two each of the direction, of the distance and of their product, and one of their sum: 8 times the root of 3.
+/// The rest is for where the way is known to be free, which is rounded too.
+const PLACES: f64 = 24.0;
+
+/// A field counts as bent by at least this share of its slope over the size of its region, so that nothing is divided by zero.
+const LEAST_BEND: f64 = 1.0 / 1024.0;
+
+/// The largest error with which scouts are of use, as a share of how much the field may change from the middle of its region.
+const COARSEST: f64 = 1.0 / 1024.0;
+
 impl PartKind {
     /// The path that rays take, in words.
     pub fn word(&self) -> &'static str {
@@ -42,8 +56,16 @@ impl PartKind {
             Self::Ring(..) => "analytic torus",
             Self::Marched(m) if m.cut.is_some() => "analytic chords",
             Self::Marched(m) if m.slope.is_some() => "convex: by slope",
-            Self::Marched(m) if m.thicket.is_some() => "sphere tracing, thinned out",
-            Self::Marched(_) => "sphere tracing",
+            Self::Marched(m) => match (m.thicket.is_some(), m.short().map(Short::is_bend_known)) {
+                (false, None) => "sphere tracing",
+                (false, Some(false)) => "sphere tracing, f32 in free space",
+                (false, Some(true)) => "sphere tracing, f32 in free space, steps by bends",
+                (true, None) => "sphere tracing, thinned out",
+                (true, Some(false)) => "sphere tracing, thinned out, f32 in free space",
+                (true, Some(true)) => {
+                    "sphere tracing, thinned out, f32 in free space, steps by bends"
+                }
+            },
         }
     }
 }
@@ -62,6 +84,11 @@ pub struct Marched {
     pub is_sheet: bool,
     /// The field, over wide lanes.
     pub value: Closure<F64x32>,
+    /// What [`Marched::short`] gives, once it was asked for.
+    short: OnceLock<Option<Short>>,
+    /// Whether scouts may be asked for.
+    is_scouted: bool,
+    level: Level,
     /// What [`Marched::single`] gives, once it was asked for.
     single: OnceLock<Closure<f64>>,
     /// The field and its derivative along the ray, where the field is convex.
@@ -82,6 +109,26 @@ pub struct Marched {
     pub thicket: Option<Thicket>,
     /// What rays have found against its constant.
     pub(super) evidence: Evidence,
+}
+
+/// A field in single precision, for scouts.
+pub struct Short {
+    /// Over wide lanes.
+    pub value: Closure<F32x32>,
+    /// By how much its values may be off in the region, with the places that scouts take them at, in units of the field.
+    pub error: f64,
+    /// By how much places and distances may be off, in scene units.
+    pub off: f64,
+    /// How much the slope along a straight line falls at most with each unit of the way, outside of the solid, and rises inside:
+    /// infinite where that is not known.
+    pub bends: [f64; 2],
+}
+
+impl Short {
+    /// Whether steps outside of the solid can count on a bend.
+    pub fn is_bend_known(&self) -> bool {
+        self.bends[0].is_finite()
+    }
 }
 
 /// Closures for a value with its derivative along a ray.
@@ -211,12 +258,45 @@ impl Marched {
             lipschitz,
             is_sheet: node.traits().is_sheet,
             value: compile_wide(node, level),
+            short: OnceLock::new(),
+            is_scouted: demands.lanes && !node.rests_on_claim() && !node.traits().is_sheet,
+            level,
             single: OnceLock::new(),
             slope,
             gradient: OnceLock::new(),
             ranges: OnceLock::new(),
             evidence: Evidence::default(),
             node: shape,
+        })
+    }
+
+    /// The field for scouts, compiled when it is first asked for; none where single precision says too little of it.
+    pub fn short(&self) -> Option<&Short> {
+        self.short.get_or_init(|| self.shortened()).as_ref()
+    }
+
+    fn shortened(&self) -> Option<Short> {
+        if !self.is_scouted || self.is_endless() || self.slope.is_some() {
+            return None;
+        }
+        let Bounds { low, high } = self.region;
+        let range = |axis: usize| Interval::new(low[axis], high[axis]);
+        let [x, y, z] = [0, 1, 2].map(|axis| Rounded::new(range(axis), 0.0));
+        let own = compile::<Rounded>(&self.node)(&Vec3::new(x, y, z)).error();
+        let off = PLACES * UNIT * self.region.radius();
+        let error = own + self.lipschitz * off;
+        let is_enough = error <= COARSEST * self.lipschitz * self.region.radius_about_centre();
+        if !is_enough {
+            return None;
+        }
+        let [x, y, z] = [0, 1, 2].map(|axis| Bent::variable(range(axis), axis));
+        let bent = compile::<Bent>(&self.node)(&Vec3::new(x, y, z));
+        Some(Short {
+            value: compile_wide(&self.node, self.level),
+            error,
+            off,
+            bends: [-bent.low(), bent.high()]
+                .map(|bend| bend.max(LEAST_BEND * self.lipschitz / self.size)),
         })
     }
 

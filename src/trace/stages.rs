@@ -10,7 +10,7 @@ use super::bundle::{Bundle, CAPACITY, WIDTH};
 use super::packet::{Lane, Rules};
 use super::part::Marched;
 use crate::field::{Closure, Task, Thicket, Thinned, run_at};
-use crate::num::{F64x32, Lanes, Vec3};
+use crate::num::{F32x32, F64x32, Lanes, Vec3};
 
 /// How many rays are looked at side by side.
 const LANES: usize = 8;
@@ -25,6 +25,8 @@ pub(super) struct Stage {
     /// On which side the rays are before it, if what lies between it and the stage before is free.
     pub before: Option<f64>,
     pub value: Closure<F64x32>,
+    /// The same for scouts, if there are any.
+    pub short: Option<Closure<F32x32>>,
     pub left: Option<Thinned>,
 }
 
@@ -41,6 +43,7 @@ pub(super) fn stages(
         to: f64::INFINITY,
         before: None,
         value: marched.value.clone(),
+        short: marched.short().map(|short| short.value.clone()),
         left: None,
     };
     let Some(thicket) = marched.thicket.as_ref() else {
@@ -52,7 +55,7 @@ pub(super) fn stages(
         return vec![whole()];
     }
     let balls = Balls::along(beam, marched, rules, (from, to));
-    thinned_stages(thicket, &balls, rules)
+    thinned_stages(thicket, &balls, marched, rules)
 }
 
 /// Where the first of some rays enters the region, and where the last leaves it.
@@ -104,7 +107,8 @@ impl Balls {
         let mut centres = [[0.0; WIDTH]; 3];
         let mut radii = [0.0; WIDTH];
         // Room for steps that begin in one ball and end in the next, and for the rounding of borders.
-        let room = 1e-9 * (to + rules.reach);
+        let scouts = marched.short().map_or(0.0, |short| short.off);
+        let room = 1e-9 * (to + rules.reach) + scouts;
         for k in 0..WIDTH {
             let ends = [k, k + 1].map(|k| from + width * k as f64);
             let (centre, radius) = beam.ball(ends[0], ends[1]);
@@ -140,7 +144,12 @@ impl Balls {
 }
 
 /// The stages along a beam, each with what is left of a combination; those that are surely free are left out.
-fn thinned_stages(thicket: &Thicket, balls: &Balls, rules: &Rules) -> Vec<Stage> {
+fn thinned_stages(
+    thicket: &Thicket,
+    balls: &Balls,
+    marched: &Marched,
+    rules: &Rules,
+) -> Vec<Stage> {
     let values = thicket.values(&balls.centres);
     let joined = thicket.joined(&values);
     let is_open = |k: usize| balls.is_open(k, joined.0[k], rules);
@@ -173,6 +182,7 @@ fn thinned_stages(thicket: &Thicket, balls: &Balls, rules: &Rules) -> Vec<Stage>
             to: balls.border(k + 1),
             before: free.take(),
             value: thicket.value(&left),
+            short: marched.short().map(|_| thicket.short(&left)),
             left: Some(left),
         });
     }

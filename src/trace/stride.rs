@@ -13,7 +13,7 @@
 use super::bundle::WIDTH;
 use super::fan::{STRAGGLERS, fan};
 use super::method::finest;
-use super::packet::{Lane, Packet, Rules, places, state};
+use super::packet::{Lane, Packet, Rules, count, places, state};
 use crate::field::{Closure, Task};
 use crate::num::{F64x32, Number};
 
@@ -22,7 +22,10 @@ use crate::num::{F64x32, Number};
 pub(super) const SHYNESS: f64 = 1.9;
 
 /// The field of a ray that leaves a surface rises at most by this share of its constant, as far as steps count on it.
-const LARGEST_TREND: f64 = 0.875;
+pub(super) const LARGEST_TREND: f64 = 0.875;
+
+/// A lane is far from a surface that is free for so many tolerances.
+const FAR: f64 = 1.0;
 
 /// More narrowings than halving needs from any width to rounding; and how many samples may be taken inside of one step.
 const MAX_NARROWINGS: i64 = 200;
@@ -35,6 +38,8 @@ pub(super) struct Stride<'a> {
     pub value: &'a Closure<F64x32>,
     /// What it goes by.
     pub rules: &'a Rules,
+    /// Lanes with a larger value than that, and far from it by some tolerances, are left to scouts; infinite if there are none.
+    pub scouted: f64,
     /// It ends once no more lanes than this go on.
     pub few: i64,
 }
@@ -48,12 +53,16 @@ impl Task for Stride<'_> {
             packet,
             value,
             rules,
+            scouted,
             few,
         } = self;
         let inverse = 1.0 / rules.lipschitz;
+        if count(&packet.state, state::is_going) <= few {
+            return;
+        }
         loop {
             let values = value(&places(&packet.origin, &packet.direction, &packet.t));
-            let going = step(packet, &values.0, rules, inverse);
+            let going = step(packet, &values.0, rules, inverse, scouted);
             if going <= few {
                 return;
             }
@@ -73,7 +82,7 @@ const GROUP: usize = 8;
 
 /// Lets every lane observe its value, given the reciprocal of the constant; gives how many go on.
 #[inline(always)]
-fn step(packet: &mut Packet, values: &Lane, rules: &Rules, inverse: f64) -> i64 {
+fn step(packet: &mut Packet, values: &Lane, rules: &Rules, inverse: f64, scouted: f64) -> i64 {
     let mut going = [0; GROUP];
     for first in (0..WIDTH).step_by(GROUP) {
         let mut marches = false;
@@ -85,7 +94,7 @@ fn step(packet: &mut Packet, values: &Lane, rules: &Rules, inverse: f64) -> i64 
             if rules.is_endless {
                 reach(packet, values, inverse, first);
             }
-            march(packet, values, rules, inverse, first);
+            march(packet, values, rules, inverse, scouted, first);
         }
         let mut encloses = false;
         for i in first..first + GROUP {
@@ -130,7 +139,7 @@ fn reach(p: &mut Packet, values: &Lane, inverse: f64, first: usize) {
 
 /// A step of the lanes from `first` on that march; those that meet a change of sign begin to enclose it.
 #[inline(always)]
-fn march(p: &mut Packet, values: &Lane, rules: &Rules, inverse: f64, first: usize) {
+fn march(p: &mut Packet, values: &Lane, rules: &Rules, inverse: f64, scouted: f64, first: usize) {
     let slope = rules.lipschitz;
     let max_steps = i64::from(rules.max_steps);
     // Where any hit will do, a change of sign needs no more.
@@ -234,6 +243,13 @@ fn march(p: &mut Packet, values: &Lane, rules: &Rules, inverse: f64, first: usiz
             state::MARCHING
         };
 
+        let is_far = here.abs() > scouted && free > FAR * epsilon && p.close[i] == 0;
+        let becomes = if is_far && becomes == state::MARCHING && !retreats {
+            state::FAR
+        } else {
+            becomes
+        };
+
         // What becomes of the lane. Where it ends or encloses, it stays where it is.
         let stays = is_rare || is_refuted || is_crossing;
         let begins = is_marching && !is_rare && !is_refuted && is_crossing;
@@ -248,11 +264,45 @@ fn march(p: &mut Packet, values: &Lane, rules: &Rules, inverse: f64, first: usiz
         p.state[i] = if is_marching { becomes } else { was };
         p.departed[i] |= i64::from(is_marching && free > epsilon);
         p.steps[i] += i64::from(is_stepping);
-        let starts_anew = is_marching && (begins || becomes == state::MARCHING);
+        let starts_anew =
+            is_marching && (begins || becomes == state::MARCHING || becomes == state::FAR);
         let narrowings = if starts_anew { 0 } else { p.narrowings[i] };
         let probes = is_marching && becomes == state::PROBING;
         p.narrowings[i] = narrowings + i64::from(probes);
     }
+}
+
+/// Where a change of sign between two samples is looked for next: on the grid, by the secant or else in the middle. The
+/// spacing of the grid comes with its reciprocal.
+#[inline(always)]
+fn inner(
+    (grid, finer): (f64, f64),
+    (low_t, low): (f64, f64),
+    (top_t, top): (f64, f64),
+    halves: bool,
+) -> f64 {
+    let span = top_t - low_t;
+    let secant = low_t + low / (low - top) * span;
+    let middle = low_t + 0.5 * span;
+    let is_within = secant >= low_t && secant <= top_t;
+    let inner = if halves || !is_within { middle } else { secant };
+    let below = Number::floor(inner * finer) * grid;
+    let above = (Number::floor(low_t * finer) + 1.0) * grid;
+    let aligned = if below > low_t { below } else { above };
+    // Where a sample is zero, the surface is there; what is left to see is that it is not before.
+    let beside = if top_t - grid > low_t {
+        top_t - grid
+    } else {
+        middle
+    };
+    let aligned = if top == 0.0 { beside } else { aligned };
+    if aligned < top_t { aligned } else { middle }
+}
+
+/// Where lane `i` looks first for a change of sign between two samples.
+#[inline(always)]
+pub(super) fn first_probe(p: &Packet, i: usize, low: (f64, f64), top: (f64, f64)) -> f64 {
+    inner((p.grid[i], p.finer[i]), low, top, false)
 }
 
 /// A step of the lanes from `first` on that enclose: the new sample takes the place of the end with its sign.
@@ -273,19 +323,14 @@ fn narrow(p: &mut Packet, values: &Lane, rules: &Rules, first: usize) {
         let (grid, finer) = (p.grid[i], p.finer[i]);
         let widest = grid + careless;
         let narrowings = p.narrowings[i];
-        let is_done = top_value == 0.0 || span <= widest || narrowings >= MAX_NARROWINGS;
-        let secant = low_t + low_value / (low_value - top_value) * span;
-        let middle = low_t + 0.5 * span;
-        let is_within = secant >= low_t && secant <= top_t;
-        let inner = if narrowings & 3 == 3 || !is_within {
-            middle
-        } else {
-            secant
-        };
-        let below = Number::floor(inner * finer) * grid;
-        let above = (Number::floor(low_t * finer) + 1.0) * grid;
-        let aligned = if below > low_t { below } else { above };
-        let probe = if aligned < top_t { aligned } else { middle };
+        let is_done = span <= widest || narrowings >= MAX_NARROWINGS;
+        let halves = narrowings & 3 == 3;
+        let probe = inner(
+            (grid, finer),
+            (low_t, low_value),
+            (top_t, top_value),
+            halves,
+        );
         let becomes = if is_done {
             state::HIT
         } else {

@@ -11,9 +11,10 @@ use super::cut::{Cut, Workshop};
 use super::descent::{Descent, Step};
 use super::inclines::{Derivatives, Gradient};
 use super::newton::Newton;
-use super::packet::{Found, Load, Packet, Proceed, Rules};
+use super::packet::{Found, Load, Muster, Packet, Proceed, Rules};
 use super::part::{Marched, Part, PartKind, Spare};
 use super::ring::{Near, Ring};
+use super::scout::Scout;
 use super::stages::{Stage, stages};
 use super::stride::Stride;
 use super::world::World;
@@ -36,6 +37,9 @@ const TOO_WIDE: f64 = 0.1;
 
 /// The packet in which lanes are put together that lag behind.
 const MIXED: usize = CAPACITY / WIDTH;
+
+/// Scouts go where values are larger than their errors by this factor.
+const SCOUTED: f64 = 4.0;
 
 /// Lanes lag behind if no more than this go on in a packet.
 const LAGGARDS: i64 = 12;
@@ -382,18 +386,6 @@ impl World {
     /// Walks all packets through a stage. Lanes that lag behind are put together in a packet of their own, so that few
     /// evaluations are done for few lanes.
     fn pass(&self, visit: &Visit, stage: &Stage, packets: usize, scratch: &mut Scratch) -> bool {
-        let walk = |packet: &mut Packet, few: i64| {
-            let (value, rules) = (&stage.value, &visit.rules);
-            run_at(
-                self.level,
-                Stride {
-                    packet,
-                    value,
-                    rules,
-                    few,
-                },
-            );
-        };
         let few = if packets > 1 { LAGGARDS } else { 0 };
         let mut homes = std::mem::take(&mut scratch.homes);
         homes.clear();
@@ -409,25 +401,58 @@ impl World {
             if !run_at(self.level, task) {
                 continue;
             }
-            walk(&mut scratch.packets[k], few);
+            self.advance(visit, stage, &mut scratch.packets[k], few);
             for from in scratch.packets[k].going() {
                 let [packet, mixed] = pair(&mut scratch.packets, k);
                 mixed.adopt(homes.len(), packet, from);
                 homes.push((k, from));
                 if homes.len() == WIDTH {
-                    walk(mixed, LAGGARDS);
+                    self.advance(visit, stage, mixed, LAGGARDS);
                     is_hit |= self.disband(visit, &mut homes, scratch);
                 }
             }
             is_hit |= self.settle(visit, k, scratch);
         }
         if !homes.is_empty() {
-            walk(&mut scratch.packets[MIXED], 0);
+            self.advance(visit, stage, &mut scratch.packets[MIXED], 0);
             is_hit |= self.disband(visit, &mut homes, scratch);
         }
         scratch.homes = homes;
         self.incline(visit, stage.left.as_ref(), scratch);
         is_hit
+    }
+
+    /// Walks a packet through a stage until no more than `few` lanes go on in either precision: first away from surfaces that
+    /// rays start on, then through free space in single precision if that can be, then to what they meet.
+    fn advance(&self, visit: &Visit, stage: &Stage, packet: &mut Packet, few: i64) {
+        let rules = &visit.rules;
+        let stride = |packet: &mut Packet, scouted: f64| {
+            let value = &stage.value;
+            run_at(
+                self.level,
+                Stride {
+                    packet,
+                    value,
+                    rules,
+                    scouted,
+                    few,
+                },
+            );
+        };
+        if let Some((value, short)) = stage.short.as_ref().zip(visit.marched.short()) {
+            if run_at(self.level, Muster(packet)) {
+                stride(packet, SCOUTED * short.error);
+            }
+            let task = Scout {
+                packet,
+                value,
+                short,
+                rules,
+                few,
+            };
+            run_at(self.level, task);
+        }
+        stride(packet, f64::INFINITY);
     }
 
     /// Sends the lanes of the mixed packet that have come to the end of the stage home; those that go on move up.

@@ -260,11 +260,18 @@ fn pictures_do_not_depend_on_threads() {
 #[test]
 fn explain_names_the_method_of_the_script() {
     let folder = Folder::new("paths");
-    for (method, path) in [("auto", "sphere tracing"), ("bisect", "bisect")] {
-        let script = format!("show link()\nrender {{ method: \"{method}\" }}\n");
+    let scouted = "sphere tracing, f32 in free space";
+    let bent = "sphere tracing, f32 in free space, steps by bends";
+    for (method, shape, path) in [
+        ("auto", "link()", scouted),
+        ("auto", "box(1).twist(rate: 1rad)", bent),
+        ("bisect", "link()", "bisect"),
+    ] {
+        let script = format!("show {shape}\nrender {{ method: \"{method}\" }}\n");
         folder.write("a.sdf", &script);
         let answer = folder.run(&["explain", "a.sdf"]).expect(0);
-        let line = format!("\n  {path}  link\n");
+        let name = if shape == "link()" { "link" } else { "box" };
+        let line = format!("\n  {path}  {name}\n");
         assert!(answer.out.contains(&line), "{}", answer.out);
     }
 }

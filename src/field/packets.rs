@@ -1,11 +1,11 @@
-//! A field at many points, a packet of them at a time, by the closures that rays are traced with.
+//! A field at many points, a packet of them at a time, by the closures with which rays cross free space.
 
 use super::{Closure, Level, compile_wide};
-use crate::num::{F64x32, Lanes, Vec3};
+use crate::num::{F32x32, Lanes, Vec3};
 use crate::scene::Node;
 
-/// The lanes that rays are traced in.
-pub type Packet = F64x32;
+/// The lanes in which rays cross free space.
+pub type Packet = F32x32;
 
 /// A field that is ready to be evaluated at packets of points.
 pub struct Packets {
@@ -27,7 +27,7 @@ impl Packets {
     pub fn of_points(points: &[[f64; 3]]) -> Vec<Vec3<Packet>> {
         let packet = |points: &[[f64; 3]]| {
             let last = points.len() - 1;
-            let axis = |axis: usize| Lanes::from_fn(|lane| points[lane.min(last)][axis]);
+            let axis = |axis: usize| Lanes::from_fn(|lane| points[lane.min(last)][axis] as f32);
             Vec3::new(axis(0), axis(1), axis(2))
         };
         points.chunks(Self::WIDTH).map(packet).collect()
@@ -53,7 +53,7 @@ mod tests {
         let packets = Packets::of_points(&points);
         assert_eq!(packets.len(), 2);
         let values = Packets::new(&ball).at(&packets[1]).0;
-        let first = Packets::WIDTH as f64 - 1.0;
+        let first = Packets::WIDTH as f32 - 1.0;
         assert_eq!(values[..3], [first, first + 1.0, first + 2.0]);
         assert!(values[3..].iter().all(|v| *v == first + 2.0));
     }

@@ -200,7 +200,7 @@ pub(super) fn noise_slope<N: Number>(x: N, y: N, z: N) -> [N; 3] {
     let (ways_x, ways_y, ways_z) = ([u, u - one], [v, v - one], [w, w - one]);
     let (a, b, c) = (fade(u), fade(v), fade(w));
     let hashes = corners(i, j, k);
-    // Of each side, edge and corner: the gradient, the height, and how much it rises along y and z.
+    // Of each side, edge and corner: the gradient, the height, and how much it rises along z and along y.
     let mut sides = [[x; 2]; 6];
     for right in 0..2 {
         let mut edges = [[x; 2]; 5];

@@ -22,7 +22,7 @@ pub(super) const PATIENCE: i64 = 24;
 const MAX_FANS: usize = 256;
 
 impl Packet {
-    /// Whether a lane steps along close to a surface, and has done so for long.
+    /// Whether a lane steps along close to a surface after a long way.
     #[inline(always)]
     pub(super) fn lags(&self, lane: usize, rules: &Rules) -> bool {
         let is_stepping = matches!(self.state[lane], state::MARCHING | state::PROBING);
@@ -30,6 +30,14 @@ impl Packet {
             && self.evaluations[lane] >= PATIENCE
             && self.departed[lane] != 0
             && self.last_value[lane].abs() <= 2.0 * rules.lipschitz * self.epsilon(lane, rules)
+    }
+
+    /// Lets a lane enclose the change of sign between its last sample and this one.
+    fn enclose(&mut self, lane: usize, (t, value): (f64, f64)) {
+        (self.high_t[lane], self.high_value[lane]) = (t, value);
+        self.narrowings[lane] = 0;
+        self.state[lane] = state::ENCLOSING;
+        self.t[lane] = self.last_t[lane] + 0.5 * (t - self.last_t[lane]);
     }
 
     /// The tolerance at the last sample of a lane.
@@ -87,15 +95,16 @@ pub(super) fn fan(packet: &mut Packet, lane: usize, value: &Closure<F64x32>, rul
         // A change of sign within the tolerance needs no more, whatever lies before it.
         let beyond = (0..WIDTH).find(|k| (values[*k] < 0.0) != (last < 0.0));
         if let Some(k) = beyond.filter(|k| values[*k] != 0.0) {
-            let sum = last.abs() + values[k].abs();
-            if sum + slope * epsilon >= slope * (t[k] - last_t) * (1.0 - 1e-9) {
+            let gap = t[k] - last_t;
+            let (change, sum) = ((values[k] - last).abs(), last.abs() + values[k].abs());
+            let noise = 64.0 * f64::EPSILON * (p.size[lane] + t[k]) * slope;
+            let is_sound = change <= slope * gap * (1.0 + 1e-9) + noise;
+            let is_number = (0..k).all(|k| !values[k].is_nan());
+            if is_sound && is_number && sum + slope * epsilon >= slope * gap * (1.0 - 1e-9) {
                 if k > 0 {
                     (p.last_t[lane], p.last_value[lane]) = (t[k - 1], values[k - 1]);
                 }
-                (p.high_t[lane], p.high_value[lane]) = (t[k], values[k]);
-                p.narrowings[lane] = 0;
-                p.state[lane] = state::ENCLOSING;
-                p.t[lane] = p.last_t[lane] + 0.5 * (t[k] - p.last_t[lane]);
+                p.enclose(lane, (t[k], values[k]));
                 return;
             }
         }
@@ -116,10 +125,7 @@ pub(super) fn fan(packet: &mut Packet, lane: usize, value: &Closure<F64x32>, rul
                 return;
             }
             if differs && sum + slope * epsilon >= slope * gap * (1.0 - 1e-9) {
-                (p.high_t[lane], p.high_value[lane]) = (t[k], now);
-                p.narrowings[lane] = 0;
-                p.state[lane] = state::ENCLOSING;
-                p.t[lane] = last_t + 0.5 * gap;
+                p.enclose(lane, (t[k], now));
                 return;
             }
             if differs || (sum < slope * gap * (1.0 - 1e-9) && gap > rounding) {
@@ -129,6 +135,7 @@ pub(super) fn fan(packet: &mut Packet, lane: usize, value: &Closure<F64x32>, rul
             }
             (last_t, last) = (t[k], now);
             (p.last_t[lane], p.last_value[lane]) = (last_t, last);
+            p.known[lane] = last_t + last.abs() / slope;
         }
         if last_t >= limit {
             p.state[lane] = state::ARRIVED;

@@ -98,6 +98,8 @@ pub(super) struct Packet {
     /// Where the last sample that counts was taken; before all where there is none.
     pub(super) last_t: Lane,
     pub(super) last_value: Lane,
+    /// Up to where the way is known to be free, where there is a last sample.
+    pub(super) known: Lane,
     pub(super) high_t: Lane,
     pub(super) high_value: Lane,
     pub(super) state: [i64; WIDTH],
@@ -150,7 +152,7 @@ macro_rules! copy_lane {
         }
         copy_lane! {
             $from, $source => $to, $lane;
-            footprint spread size far grid finer start end limit t error side last_t last_value high_t high_value state departed
+            footprint spread size far grid finer start end limit t error side last_t last_value known high_t high_value state departed
             close steps narrowings evaluations ray
         }
     }};
@@ -226,6 +228,7 @@ impl Task for Load<'_> {
         p.error = [0.0; WIDTH];
         p.last_t = [f64::NEG_INFINITY; WIDTH];
         p.last_value = [0.0; WIDTH];
+        p.known = [0.0; WIDTH];
         p.high_t = [0.0; WIDTH];
         p.high_value = [0.0; WIDTH];
         p.steps = [0; WIDTH];
@@ -291,19 +294,32 @@ impl Task for Proceed<'_> {
 }
 
 /// Tells the lanes that step far from surfaces from the others; gives whether any of these goes on.
-pub(super) struct Muster<'a>(pub &'a mut Packet);
+pub(super) struct Muster<'a> {
+    /// The lanes.
+    pub packet: &'a mut Packet,
+    /// A last value has to be larger than that.
+    pub least: f64,
+    /// How far the region reaches from the origin of coordinates.
+    pub reach: f64,
+}
+
+/// A ray that starts so many sizes of its region away is not told well enough where it comes in.
+const REMOTE: f64 = (1u64 << 24) as f64;
 
 impl Task for Muster<'_> {
     type Output = bool;
 
     #[inline(always)]
     fn run(self) -> bool {
-        let p = self.0;
+        let p = self.packet;
+        let remote = REMOTE * self.reach;
         let mut goes = false;
         for i in 0..WIDTH {
             let was = p.state[i];
-            let steps = (was == state::FRESH) | (was == state::MARCHING);
-            let is_far = steps & (p.departed[i] != 0) & (p.close[i] == 0);
+            let is_told = (was == state::MARCHING) & (p.last_value[i].abs() > self.least);
+            let steps = (was == state::FRESH) | is_told;
+            let is_open = (p.departed[i] != 0) & (p.close[i] == 0);
+            let is_far = steps & is_open & (p.size[i] <= remote);
             p.state[i] = if is_far { state::FAR } else { was };
             goes |= state::is_going(p.state[i]);
         }

@@ -34,9 +34,9 @@ pub enum PartKind {
 /// By how much a number is off that was rounded to single precision, as a share of it.
 const UNIT: f64 = 0.5 * f32::EPSILON as f64;
 
-/// By how much the place of a scout is off, in roundings of the largest coordinate. Along each axis there are one of the place where
-/// the ray comes in, two each of the direction, of the distance and of their product, and one of their sum: 8 times the root of 3.
-/// The rest is for where the way is known to be free, which is rounded too.
+/// By how much the place of a scout is off, in roundings of the farthest corner of the region: one of the place where the ray comes in, two each
+/// of the direction and of its product with the distance, and one of their sum. The rest is for where the way is known to be free, which
+/// is rounded too.
 const PLACES: f64 = 24.0;
 
 /// A field counts as bent by at least this share of its slope over the size of its region, so that nothing is divided by zero.
@@ -115,6 +115,8 @@ pub struct Marched {
 pub struct Short {
     /// Over wide lanes.
     pub value: Closure<F32x32>,
+    /// The Lipschitz constant where scouts go.
+    pub lipschitz: f64,
     /// By how much its values may be off in the region, with the places that scouts take them at, in units of the field.
     pub error: f64,
     /// By how much places and distances may be off, in scene units.
@@ -279,12 +281,14 @@ impl Marched {
         if !self.is_scouted || self.is_endless() || self.slope.is_some() {
             return None;
         }
-        let Bounds { low, high } = self.region;
-        let range = |axis: usize| Interval::new(low[axis], high[axis]);
+        // Scouts may be that far outside of it.
+        let off = PLACES * UNIT * self.region.radius();
+        let region = self.region.inflate(off);
+        let lipschitz = self.node.lipschitz_over(region);
+        let range = |axis: usize| Interval::new(region.low[axis], region.high[axis]);
         let [x, y, z] = [0, 1, 2].map(|axis| Rounded::new(range(axis), 0.0));
         let own = compile::<Rounded>(&self.node)(&Vec3::new(x, y, z)).error();
-        let off = PLACES * UNIT * self.region.radius();
-        let error = own + self.lipschitz * off;
+        let error = own + lipschitz * off;
         let is_enough = error <= COARSEST * self.lipschitz * self.region.radius_about_centre();
         if !is_enough {
             return None;
@@ -292,6 +296,7 @@ impl Marched {
         let [x, y, z] = [0, 1, 2].map(|axis| Bent::variable(range(axis), axis));
         let bent = compile::<Bent>(&self.node)(&Vec3::new(x, y, z));
         Some(Short {
+            lipschitz,
             value: compile_wide(&self.node, self.level),
             error,
             off,

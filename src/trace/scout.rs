@@ -66,6 +66,9 @@ const LEAST: f32 = 0.125;
 /// A step over a surface goes beyond where the trend says that it is, by this factor.
 const BEYOND: f32 = 1.0625;
 
+/// By how much the end of a stretch may be rounded, as a share of it, with room.
+const FINE: f32 = 1.0 / (1u32 << 22) as f32;
+
 /// How many lanes go through a step at once.
 const GROUP: usize = 16;
 
@@ -88,6 +91,8 @@ struct Scouts {
     /// The value beyond a change of sign.
     beyond: Numbers,
     pace: [i32; WIDTH],
+    /// Whether it has taken a sample that says that its way is free.
+    passed: [i32; WIDTH],
     steps: [i32; WIDTH],
     evaluations: [i32; WIDTH],
 }
@@ -122,14 +127,14 @@ impl Task for Scout<'_> {
             return;
         }
         let gauge = Gauge {
-            slope: rules.lipschitz as f32 * (1.0 + 4.0 * ROOM),
-            inverse: (1.0 - 8.0 * ROOM) / rules.lipschitz as f32,
+            slope: short.lipschitz as f32 * (1.0 + 4.0 * ROOM),
+            inverse: (1.0 - 8.0 * ROOM) / short.lipschitz as f32,
             bends: short.bends.map(|bend| bend as f32 * (1.0 + BEND_ROOM)),
             error: short.error as f32 * (1.0 + ROOM),
             max_steps: rules.max_steps.min(i32::MAX as u32) as i32,
             careless: if rules.any { f32::INFINITY } else { 0.0 },
         };
-        let mut scouts = Scouts::of(packet, &gauge, rules);
+        let mut scouts = Scouts::of(packet, rules);
         if gauge.bends[0] < f32::INFINITY {
             scouts.walk::<true>(value, &gauge, few);
         } else {
@@ -152,7 +157,7 @@ fn falling(value: f32, slope: f32, bend: f32) -> f32 {
 impl Scouts {
     /// The lanes of a packet that are far from surfaces.
     #[inline(always)]
-    fn of(p: &Packet, gauge: &Gauge, rules: &Rules) -> Self {
+    fn of(p: &Packet, rules: &Rules) -> Self {
         let zero = [0.0; WIDTH];
         let mut s = Self {
             place: [zero; 3],
@@ -166,6 +171,7 @@ impl Scouts {
             known: zero,
             beyond: zero,
             pace: [pace::IDLE; WIDTH],
+            passed: [0; WIDTH],
             steps: [0; WIDTH],
             evaluations: [0; WIDTH],
         };
@@ -182,7 +188,7 @@ impl Scouts {
             let t = (p.t[i] - start) as f32;
             s.tolerance[i] = (rules.tolerance * (p.footprint[i] + p.spread[i] * start)) as f32;
             s.spread[i] = (rules.tolerance * p.spread[i]) as f32;
-            s.limit[i] = (p.limit[i] - start) as f32 * (1.0 + ROOM);
+            s.limit[i] = (p.limit[i] - start) as f32;
             s.t[i] = t;
             s.last_t[i] = if has_last {
                 (p.last_t[i] - start) as f32
@@ -199,9 +205,11 @@ impl Scouts {
             } else {
                 pace::FRESH
             };
-            let free = (s.last_value[i].abs() - gauge.error) * gauge.inverse;
-            let is_known = has_last & (free > 0.0);
-            s.known[i] = s.last_t[i] + if is_known { free } else { 0.0 };
+            s.known[i] = if has_last {
+                (p.known[i] - start) as f32
+            } else {
+                t
+            };
             s.pace[i] = if p.state[i] == state::FAR {
                 begins
             } else {
@@ -292,7 +300,7 @@ impl Scouts {
         let is_enough = is_narrow | (sum + gauge.slope * tolerance >= gauge.slope * width);
         let is_spent = s.steps[i] + 1 >= gauge.max_steps;
         let is_fine = is_certain & !is_spent;
-        let crosses = has_last & is_fine & differs & is_enough;
+        let crosses = has_last & is_certain & differs & is_enough;
         let passes = is_fine & !differs & is_free;
         // Otherwise the step is taken again, shorter.
         let least = tolerance * LEAST;
@@ -309,8 +317,10 @@ impl Scouts {
         } else {
             by_slope
         };
-        let limit = s.limit[i];
-        let has_arrived = t + free >= limit;
+        // No sample lies beyond the end of the stretch, whichever way it was rounded.
+        let (limit, beyond) = (s.limit[i] * (1.0 - FINE), s.limit[i] * (1.0 + FINE));
+        let has_arrived = t + free >= beyond;
+        let is_at_end = t >= limit;
         let way = gauge.slope * width;
         let lowest = (1.0 - LARGEST_TREND as f32) * way;
         let left = if way - rise > lowest {
@@ -328,14 +338,15 @@ impl Scouts {
         let will_do = now.abs() * BEYOND + gauge.slope * tolerance - 4.0 * gauge.error;
         let will_be_narrow = over - free <= 0.75 * tolerance + gauge.careless;
         let is_over = has_last & (rise < 0.0) & ((will_do >= gauge.slope * over) | will_be_narrow);
-        let leap = if is_over { over } else { leap };
+        let leap = if is_over & (over > free) { over } else { leap };
         let next = if t + leap < limit { t + leap } else { limit };
         let next = if has_arrived { t + free } else { next };
-        let becomes = if has_arrived {
-            pace::ARRIVED
+        let becomes = if is_at_end {
+            pace::CLOSE
         } else {
             pace::STEPPING
         };
+        let becomes = if has_arrived { pace::ARRIVED } else { becomes };
         let becomes = if passes { becomes } else { pace::CLOSE };
         let becomes = if retreats { pace::STEPPING } else { becomes };
         let becomes = if crosses { pace::CROSSED } else { becomes };
@@ -347,6 +358,7 @@ impl Scouts {
         s.last_t[i] = if sets_last { t } else { last_t };
         s.last_value[i] = if sets_last { now } else { last };
         s.known[i] = if sets_last { t + free } else { s.known[i] };
+        s.passed[i] |= i32::from(sets_last);
         s.beyond[i] = if is_going & crosses { now } else { s.beyond[i] };
         s.pace[i] = if is_going { becomes } else { was };
         s.steps[i] += i32::from(is_going);
@@ -363,39 +375,63 @@ impl Scouts {
             let takes_part = pace != pace::IDLE;
             let is_on = (pace == pace::FRESH) | (pace == pace::STEPPING);
             let (start, limit) = (p.start[i], p.limit[i]);
-            let (last_t, last) = (s.last_t[i], s.last_value[i]);
-            let to = if s.known[i] < s.t[i] {
-                s.known[i]
-            } else {
-                s.t[i]
-            };
+            let had_last = p.last_t[i] > f64::NEG_INFINITY;
+            // Nothing that was rounded takes the place of what was known before.
+            let has_passed = s.passed[i] != 0;
+            let is_kept = takes_part & !has_passed;
             let t = start + f64::from(s.t[i]);
+            let last_t = start + f64::from(s.last_t[i]);
+            let low_t = if is_kept { p.last_t[i] } else { last_t };
+            let (low, high) = (f64::from(s.last_value[i]), f64::from(s.beyond[i]));
             let has_crossed = (pace == pace::CROSSED) & (t <= limit);
-            let goes_on = (pace == pace::CLOSE) | ((pace == pace::CROSSED) & (t > limit));
-            let low_t = start + f64::from(last_t);
-            let (low, high) = (f64::from(last), f64::from(s.beyond[i]));
+            let is_close = (pace == pace::CLOSE) | ((pace == pace::CROSSED) & (t > limit));
             let probe = first_probe(p, i, (low_t, low), (t, high));
             let found = if rules.any {
                 state::HIT
             } else {
                 state::ENCLOSING
             };
-            let becomes = if has_crossed { found } else { state::FRESH };
+            // A lane that is close starts anew from where its way is known to be free.
+            let anew = if is_kept & had_last {
+                state::MARCHING
+            } else {
+                state::FRESH
+            };
+            let becomes = if has_crossed { found } else { anew };
             let becomes = if pace == pace::ARRIVED {
                 state::ARRIVED
             } else {
                 becomes
             };
             let becomes = if is_on { state::FAR } else { becomes };
+            let known = if s.known[i] < s.t[i] {
+                s.known[i]
+            } else {
+                s.t[i]
+            };
+            let from = if is_kept {
+                p.t[i]
+            } else {
+                start + f64::from(known)
+            };
             let next = if has_crossed { probe } else { t };
-            let next = if goes_on { start + f64::from(to) } else { next };
+            let next = if is_close | (is_on & is_kept) {
+                from
+            } else {
+                next
+            };
+            let behind = if is_close { f64::NEG_INFINITY } else { last_t };
+            let behind = if is_kept { p.last_t[i] } else { behind };
             let side = if low < 0.0 { -1.0 } else { 1.0 };
             p.t[i] = if takes_part { next } else { p.t[i] };
-            let is_fresh = goes_on | (pace == pace::FRESH);
-            let behind = if is_fresh { f64::NEG_INFINITY } else { low_t };
             p.last_t[i] = if takes_part { behind } else { p.last_t[i] };
-            p.last_value[i] = if takes_part { low } else { p.last_value[i] };
-            p.side[i] = if takes_part { side } else { p.side[i] };
+            p.last_value[i] = if has_passed { low } else { p.last_value[i] };
+            p.known[i] = if has_passed {
+                start + f64::from(s.known[i])
+            } else {
+                p.known[i]
+            };
+            p.side[i] = if has_passed { side } else { p.side[i] };
             p.high_t[i] = if has_crossed { t } else { p.high_t[i] };
             p.high_value[i] = if has_crossed { high } else { p.high_value[i] };
             p.narrowings[i] = if takes_part { 0 } else { p.narrowings[i] };

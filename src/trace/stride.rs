@@ -24,8 +24,8 @@ pub(super) const SHYNESS: f64 = 1.9;
 /// The field of a ray that leaves a surface rises at most by this share of its constant, as far as steps count on it.
 pub(super) const LARGEST_TREND: f64 = 0.875;
 
-/// A lane is far from a surface that is free for so many tolerances.
-const FAR: f64 = 1.0;
+/// A lane is left to scouts if its way is free for more tolerances than this.
+const AWAY: f64 = 1.0;
 
 /// More narrowings than halving needs from any width to rounding; and how many samples may be taken inside of one step.
 const MAX_NARROWINGS: i64 = 200;
@@ -243,7 +243,7 @@ fn march(p: &mut Packet, values: &Lane, rules: &Rules, inverse: f64, scouted: f6
             state::MARCHING
         };
 
-        let is_far = here.abs() > scouted && free > FAR * epsilon && p.close[i] == 0;
+        let is_far = here.abs() > scouted && free > AWAY * epsilon && p.close[i] == 0;
         let becomes = if is_far && becomes == state::MARCHING && !retreats {
             state::FAR
         } else {
@@ -256,6 +256,7 @@ fn march(p: &mut Packet, values: &Lane, rules: &Rules, inverse: f64, scouted: f6
         let sets_last = is_marching && !stays && !goes_back && !retreats && !is_on_surface;
         p.last_t[i] = if sets_last { here_t } else { last_t };
         p.last_value[i] = if sets_last { here } else { last_value };
+        p.known[i] = if sets_last { here_t + free } else { p.known[i] };
         // The far end of a step that is doubted, or of a change of sign.
         let is_high = is_marching && (goes_back || begins);
         p.high_t[i] = if is_high { t } else { high_t };
@@ -295,7 +296,11 @@ fn inner(
     } else {
         middle
     };
-    let aligned = if top == 0.0 { beside } else { aligned };
+    let aligned = if top == 0.0 && !halves {
+        beside
+    } else {
+        aligned
+    };
     if aligned < top_t { aligned } else { middle }
 }
 

@@ -422,8 +422,9 @@ impl World {
         is_hit
     }
 
-    /// Walks a packet through a stage until no more than `few` lanes go on in either precision: first away from surfaces that
-    /// rays start on, then through free space in single precision if that can be, then to what they meet.
+    /// Walks a packet through a stage until no more than `few` lanes go on in each precision: first those that are close to
+    /// surfaces, until they are away from them or have met one; then the others through free space in single precision, if
+    /// that can be; then all to what they meet.
     fn advance(&self, visit: &Visit, stage: &Stage, packet: &mut Packet, few: i64) {
         let rules = &visit.rules;
         let stride = |packet: &mut Packet, scouted: f64| {
@@ -440,8 +441,15 @@ impl World {
             );
         };
         if let Some((value, short)) = stage.short.as_ref().zip(visit.marched.short()) {
-            if run_at(self.level, Muster(packet)) {
-                stride(packet, SCOUTED * short.error);
+            let least = SCOUTED * short.error;
+            let reach = rules.reach;
+            let muster = Muster {
+                packet: &mut *packet,
+                least,
+                reach,
+            };
+            if run_at(self.level, muster) {
+                stride(packet, least);
             }
             let task = Scout {
                 packet,

@@ -136,6 +136,7 @@ pub(super) fn fan(packet: &mut Packet, lane: usize, value: &Closure<F64x32>, rul
             (last_t, last) = (t[k], now);
             (p.last_t[lane], p.last_value[lane]) = (last_t, last);
             p.known[lane] = last_t + last.abs() / slope;
+            p.rough[lane] = 0;
         }
         if last_t >= limit {
             p.state[lane] = state::ARRIVED;

@@ -104,6 +104,8 @@ pub(super) struct Packet {
     pub(super) high_value: Lane,
     pub(super) state: [i64; WIDTH],
     pub(super) departed: [i64; WIDTH],
+    /// Whether the last sample was taken in single precision.
+    pub(super) rough: [i64; WIDTH],
     /// Whether single precision says too little where the lane is.
     pub(super) close: [i64; WIDTH],
     pub(super) steps: [i64; WIDTH],
@@ -153,7 +155,7 @@ macro_rules! copy_lane {
         copy_lane! {
             $from, $source => $to, $lane;
             footprint spread size far grid finer start end limit t error side last_t last_value known high_t high_value state departed
-            close steps narrowings evaluations ray
+            rough close steps narrowings evaluations ray
         }
     }};
     ($from:expr, $source:expr => $to:expr, $lane:expr; $($column:ident)*) => {
@@ -223,6 +225,7 @@ impl Task for Load<'_> {
             p.side[lane] = if start > 0.0 { 1.0 } else { 0.0 };
             p.departed[lane] = i64::from(start > 0.0);
         }
+        p.rough = [0; WIDTH];
         p.close = [0; WIDTH];
         p.far = [f64::INFINITY; WIDTH];
         p.error = [0.0; WIDTH];
@@ -320,7 +323,16 @@ impl Task for Muster<'_> {
             let steps = (was == state::FRESH) | is_told;
             let is_open = (p.departed[i] != 0) & (p.close[i] == 0);
             let is_far = steps & is_open & (p.size[i] <= remote);
-            p.state[i] = if is_far { state::FAR } else { was };
+            // Samples in single precision refute nothing, so the other machine begins anew.
+            let begins = (was == state::MARCHING) & (p.rough[i] != 0) & !is_far;
+            let stays = if begins { state::FRESH } else { was };
+            p.state[i] = if is_far { state::FAR } else { stays };
+            p.t[i] = if begins { p.known[i] } else { p.t[i] };
+            p.last_t[i] = if begins {
+                f64::NEG_INFINITY
+            } else {
+                p.last_t[i]
+            };
             goes |= state::is_going(p.state[i]);
         }
         goes

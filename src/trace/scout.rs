@@ -392,7 +392,8 @@ impl Scouts {
                 state::ENCLOSING
             };
             // A lane that is close starts anew from where its way is known to be free.
-            let anew = if is_kept & had_last {
+            let is_rough = p.rough[i] != 0;
+            let anew = if is_kept & had_last & !is_rough {
                 state::MARCHING
             } else {
                 state::FRESH
@@ -409,8 +410,13 @@ impl Scouts {
             } else {
                 s.t[i]
             };
-            let from = if is_kept {
+            let from = if is_kept & had_last & (is_rough | is_on) {
+                p.known[i]
+            } else {
                 p.t[i]
+            };
+            let from = if is_kept {
+                from
             } else {
                 start + f64::from(known)
             };
@@ -420,8 +426,9 @@ impl Scouts {
             } else {
                 next
             };
-            let behind = if is_close { f64::NEG_INFINITY } else { last_t };
-            let behind = if is_kept { p.last_t[i] } else { behind };
+            let behind = if is_kept { p.last_t[i] } else { last_t };
+            let is_lost = is_close & (has_passed | is_rough);
+            let behind = if is_lost { f64::NEG_INFINITY } else { behind };
             let side = if low < 0.0 { -1.0 } else { 1.0 };
             p.t[i] = if takes_part { next } else { p.t[i] };
             p.last_t[i] = if takes_part { behind } else { p.last_t[i] };
@@ -431,6 +438,7 @@ impl Scouts {
             } else {
                 p.known[i]
             };
+            p.rough[i] |= i64::from(has_passed);
             p.side[i] = if has_passed { side } else { p.side[i] };
             p.high_t[i] = if has_crossed { t } else { p.high_t[i] };
             p.high_value[i] = if has_crossed { high } else { p.high_value[i] };

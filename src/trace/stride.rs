@@ -257,6 +257,7 @@ fn march(p: &mut Packet, values: &Lane, rules: &Rules, inverse: f64, scouted: f6
         p.last_t[i] = if sets_last { here_t } else { last_t };
         p.last_value[i] = if sets_last { here } else { last_value };
         p.known[i] = if sets_last { here_t + free } else { p.known[i] };
+        p.rough[i] = if sets_last { 0 } else { p.rough[i] };
         // The far end of a step that is doubted, or of a change of sign.
         let is_high = is_marching && (goes_back || begins);
         p.high_t[i] = if is_high { t } else { high_t };

@@ -142,6 +142,10 @@ fn fields_that_bend_are_not_cut_short() {
          show sphere(0.8).displace(waves)",
         "field bumps(p) { 0.1 * noise(4 * p) }
          show torus(0.6, 0.25).displace(bumps)",
+        // Thinned out along the way, so that stretches with different fields follow each other.
+        "let arms = for i in 0..7 { box([0.16, 1.3, 0.16]).rotate(z: i * 50deg, x: i * 33deg) }
+         let knobs = for i in 0..9 { sphere(0.17).translate([0.6 * cos(i), 0.6 * sin(2 * i), 0.5 * sin(i)]) }
+         show union([union(arms, blend: smooth(0.1)), union(knobs, blend: smooth(0.1))], blend: smooth(0.1))",
     ];
     for script in scripts {
         let node = written(script);

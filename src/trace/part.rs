@@ -115,8 +115,6 @@ pub struct Marched {
 pub struct Short {
     /// Over wide lanes.
     pub value: Closure<F32x32>,
-    /// The Lipschitz constant where scouts go.
-    pub lipschitz: f64,
     /// By how much its values may be off in the region, with the places that scouts take them at, in units of the field.
     pub error: f64,
     /// By how much places and distances may be off, in scene units.
@@ -284,19 +282,23 @@ impl Marched {
         // Scouts may be that far outside of it.
         let off = PLACES * UNIT * self.region.radius();
         let region = self.region.inflate(off);
-        let lipschitz = self.node.lipschitz_over(region);
         let range = |axis: usize| Interval::new(region.low[axis], region.high[axis]);
+        let [x, y, z] = [0, 1, 2].map(|axis| Bent::variable(range(axis), axis));
+        let bent = compile::<Bent>(&self.node)(&Vec3::new(x, y, z));
+        // The constant of a graph would be derived anew, which takes long.
+        let slope = if self.node.has_graph() {
+            bent.steep().slope().min(self.node.lipschitz_everywhere())
+        } else {
+            self.node.lipschitz_over(region)
+        };
         let [x, y, z] = [0, 1, 2].map(|axis| Rounded::new(range(axis), 0.0));
         let own = compile::<Rounded>(&self.node)(&Vec3::new(x, y, z)).error();
-        let error = own + lipschitz * off;
+        let error = own + slope * off;
         let is_enough = error <= COARSEST * self.lipschitz * self.region.radius_about_centre();
         if !is_enough {
             return None;
         }
-        let [x, y, z] = [0, 1, 2].map(|axis| Bent::variable(range(axis), axis));
-        let bent = compile::<Bent>(&self.node)(&Vec3::new(x, y, z));
         Some(Short {
-            lipschitz,
             value: compile_wide(&self.node, self.level),
             error,
             off,

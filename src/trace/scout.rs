@@ -127,8 +127,8 @@ impl Task for Scout<'_> {
             return;
         }
         let gauge = Gauge {
-            slope: short.lipschitz as f32 * (1.0 + 4.0 * ROOM),
-            inverse: (1.0 - 8.0 * ROOM) / short.lipschitz as f32,
+            slope: rules.lipschitz as f32 * (1.0 + 4.0 * ROOM),
+            inverse: (1.0 - 8.0 * ROOM) / rules.lipschitz as f32,
             bends: short.bends.map(|bend| bend as f32 * (1.0 + BEND_ROOM)),
             error: short.error as f32 * (1.0 + ROOM),
             max_steps: rules.max_steps.min(i32::MAX as u32) as i32,

@@ -9,7 +9,7 @@ use fieldstone::scene::{Method, Node};
 use fieldstone::trace::{Outcome, Ray, Verdict};
 use glam::DVec3;
 use rays::{aimed, ray};
-use solids::{found, modified, number};
+use solids::{agree, found, modified, number};
 use std::sync::Arc;
 
 fn combined(operation: Operation, children: Vec<Arc<Node>>) -> Arc<Node> {
@@ -93,22 +93,13 @@ fn chords_find_what_the_reference_finds() {
     for seed in 0..160u64 {
         let node = solid(seed);
         let rays = rays(seed);
-        let auto = found(&node, Method::Auto, &rays);
-        let reference = found(&node, Method::Reference, &rays);
-        for ((ray, a), b) in rays.iter().zip(&auto).zip(&reference) {
-            asked += u64::from(a.evaluations);
-            if b.verdict == Verdict::Unknown {
-                continue;
-            }
-            let what = format!("seed {seed}, {ray:?}: {a:?}, {b:?}");
-            assert_eq!(a.verdict, b.verdict, "{what}");
-            if a.verdict == Verdict::Hit {
-                hits += 1;
-                assert!((a.t - b.t).abs() <= a.error + b.error + 1e-12, "{what}");
-                assert!(a.error < 1e-6, "{what}");
-                assert!(a.normal.dot(b.normal) > 1.0 - 1e-9, "{what}");
-            }
-        }
+        let what = format!("seed {seed}");
+        let (new, evaluations) = agree(&what, &node, &rays, |a, b, what| {
+            assert!((a.t - b.t).abs() <= a.error + b.error + 1e-12, "{what}");
+            assert!(a.error < 1e-6, "{what}");
+            assert!(a.normal.dot(b.normal) > 1.0 - 1e-9, "{what}");
+        });
+        (hits, asked) = (hits + new, asked + evaluations);
     }
     assert!(hits > 2000, "{hits}");
     assert!(

@@ -9,7 +9,7 @@ use fieldstone::scene::{Method, Node, Settings};
 use fieldstone::trace::{Footprint, Ray, Verdict, Visibility, World};
 use glam::{DQuat, DVec3};
 use rays::{aimed, ray};
-use solids::{found, modified, number};
+use solids::{agree, found, modified, number};
 use std::sync::Arc;
 
 /// A torus with its place: the place of the origin, and a turn.
@@ -72,24 +72,11 @@ impl Placed {
 }
 
 /// Holds what `auto` finds against the reference; gives how many hits there were, and how often it asked the field.
-fn agree(what: &str, node: &Arc<Node>, rays: &[Ray]) -> (u64, u64) {
-    let auto = found(node, Method::Auto, rays);
-    let reference = found(node, Method::Reference, rays);
-    let (mut hits, mut asked) = (0, 0);
-    for ((ray, a), b) in rays.iter().zip(&auto).zip(&reference) {
-        asked += u64::from(a.evaluations);
-        if b.verdict == Verdict::Unknown {
-            continue;
-        }
-        let what = format!("{what}, {ray:?}: {a:?}, {b:?}");
-        assert_eq!(a.verdict, b.verdict, "{what}");
-        if a.verdict == Verdict::Hit {
-            hits += 1;
-            assert!((a.t - b.t).abs() <= a.error + b.error, "{what}");
-            assert!(a.normal.dot(b.normal) > 1.0 - 1e-9, "{what}");
-        }
-    }
-    (hits, asked)
+fn compare(what: &str, node: &Arc<Node>, rays: &[Ray]) -> (u64, u64) {
+    agree(what, node, rays, |a, b, what| {
+        assert!((a.t - b.t).abs() <= a.error + b.error, "{what}");
+        assert!(a.normal.dot(b.normal) > 1.0 - 1e-9, "{what}");
+    })
 }
 
 fn box_point(seed: u64, k: u64) -> DVec3 {
@@ -129,7 +116,7 @@ fn rays_in_all_directions_find_what_the_reference_finds() {
             }
         };
         let rays: Vec<Ray> = (0..48).map(some).collect();
-        let counts = agree(&format!("seed {seed}"), &torus.node(), &rays);
+        let counts = compare(&format!("seed {seed}"), &torus.node(), &rays);
         hits += counts.0;
         // A wide tube is left from inside by its field.
         asked += if torus.minor > torus.major {
@@ -166,7 +153,7 @@ fn tangent_rays_are_decided_as_by_the_reference() {
         // What lies beside the surface by less than rounding is a hit for one and a miss for the other.
         let is_clear = |k: &usize| k % 7 > 2;
         let clear: Vec<Ray> = (0..rays.len()).filter(is_clear).map(|k| rays[k]).collect();
-        hits += agree(&format!("seed {seed}"), &torus.node(), &clear).0;
+        hits += compare(&format!("seed {seed}"), &torus.node(), &clear).0;
         for outcome in found(&torus.node(), Method::Auto, &rays) {
             assert_ne!(
                 outcome.verdict,
@@ -300,6 +287,6 @@ fn far_eyes_see_what_the_reference_sees() {
             torus.ray(origin, target - origin)
         };
         let rays: Vec<Ray> = (0..40).map(some).collect();
-        agree(&format!("from {distance}"), &torus.node(), &rays);
+        compare(&format!("from {distance}"), &torus.node(), &rays);
     }
 }

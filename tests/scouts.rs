@@ -5,11 +5,11 @@ mod solids;
 
 use fieldstone::catalogue::*;
 use fieldstone::lang::load_text;
-use fieldstone::scene::{Method, Node};
-use fieldstone::trace::{Ray, SceneTracer, Verdict};
+use fieldstone::scene::Node;
+use fieldstone::trace::{Ray, SceneTracer};
 use glam::DVec3;
 use rays::aimed;
-use solids::{found, modified, number};
+use solids::{agree, modified, number};
 use std::sync::Arc;
 
 fn moved(node: Arc<Node>, by: [f64; 3]) -> Arc<Node> {
@@ -60,24 +60,13 @@ fn rays_about(place: [f64; 3], seed: u64) -> Vec<Ray> {
 }
 
 /// Compares with the reference; gives how many rays hit.
-fn compare(what: &str, node: &Arc<Node>, rays: &[Ray]) -> u32 {
-    let auto = found(node, Method::Auto, rays);
-    let reference = found(node, Method::Reference, rays);
-    let mut hits = 0;
-    for ((ray, a), b) in rays.iter().zip(&auto).zip(&reference) {
-        if b.verdict == Verdict::Unknown {
-            continue;
-        }
-        let what = format!("{what}, {ray:?}: {a:?}, {b:?}");
-        assert_eq!(a.verdict, b.verdict, "{what}");
-        if a.verdict == Verdict::Hit {
-            hits += 1;
-            // Two surfaces within the tolerance, a tenth of a thousandth of the distance, are one.
-            let is_near = (a.t - b.t).abs() <= a.error + b.error + 1e-4 * a.t;
-            assert!(is_near, "{what}");
-            assert!(a.error < 1e-6, "{what}");
-        }
-    }
+fn compare(what: &str, node: &Arc<Node>, rays: &[Ray]) -> u64 {
+    let (hits, _) = agree(what, node, rays, |a, b, what| {
+        // Two surfaces within the tolerance, a tenth of a thousandth of the distance, are one.
+        let is_near = (a.t - b.t).abs() <= a.error + b.error + 1e-4 * a.t;
+        assert!(is_near, "{what}");
+        assert!(a.error < 1e-6, "{what}");
+    });
     hits
 }
 
@@ -149,7 +138,7 @@ fn fields_that_bend_are_not_cut_short() {
     ];
     for script in scripts {
         let node = written(script);
-        let hits: u32 = (0..30)
+        let hits: u64 = (0..30)
             .map(|seed| compare(script, &node, &rays_about([0.0; 3], seed + 300)))
             .sum();
         assert!(hits > 300, "{hits}: {script}");

@@ -83,7 +83,6 @@ const GROUP: usize = 8;
 /// Lets every lane observe its value, given the reciprocal of the constant; gives how many go on.
 #[inline(always)]
 fn step(packet: &mut Packet, values: &Lane, rules: &Rules, inverse: f64, scouted: f64) -> i64 {
-    let mut going = [0; GROUP];
     for first in (0..WIDTH).step_by(GROUP) {
         let mut marches = false;
         for i in first..first + GROUP {
@@ -103,12 +102,8 @@ fn step(packet: &mut Packet, values: &Lane, rules: &Rules, inverse: f64, scouted
         if encloses {
             narrow(packet, values, rules, first);
         }
-        // Not one sum: it would be taken lane by lane.
-        for i in 0..GROUP {
-            going[i] += i64::from(state::is_going(packet.state[first + i]));
-        }
     }
-    going.into_iter().sum()
+    count(&packet.state, state::is_going)
 }
 
 /// The value of a lane, given the side of the surface that it is known to be on.

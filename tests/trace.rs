@@ -746,3 +746,78 @@ fn a_chamfer_of_parallel_floors_is_not_stepped_through() {
         }
     }
 }
+
+#[test]
+fn quadrilaterals_are_hit_where_their_triangles_are() {
+    let mut beyond = 0;
+    for seed in 0..200 {
+        let x = |k: u64| 2.0 * random(seed * 64 + k) - 1.0;
+        let point = |k: u64| DVec3::new(x(k), x(k + 1), x(k + 2));
+        // A parallelogram, or with its last corner lifted out of the plane.
+        let (a, u, v) = (point(0), point(3), point(6));
+        let lift = if seed % 2 == 0 { 0.0 } else { 0.5 * x(9) };
+        let d = a + v + lift * u.cross(v);
+        let corners = [a, a + u, a + u + v, d];
+        let [a, b, c, d] = corners.map(|corner| corner.to_array());
+        let quad = leaf(AnyPrimitive::Quad(Quad::new(a, b, c, d)));
+        let world = world(&quad, Method::Auto);
+        assert_eq!(world.parts(), 2);
+        let halves = [
+            [corners[0], corners[1], corners[2]],
+            [corners[0], corners[2], corners[3]],
+        ];
+        for i in 0..50 {
+            let x = |k: u64| random(1_000_000 + seed * 4096 + i * 8 + k);
+            // A place on a half by its coordinates; beyond the border where the last one is negative.
+            let half = halves[(i % 2) as usize];
+            let (p, q) = (1.4 * x(0), 1.4 * x(1));
+            let target = half[0] + p * (half[1] - half[0]) + q * (half[2] - half[0]);
+            let eye = DVec3::new(x(2) - 0.5, x(3) - 0.5, x(4) - 0.5).normalize() * 6.0;
+            let ray = ray(eye.to_array(), (target - eye).to_array());
+            let out = world.nearest(&[ray], Visibility::All)[0];
+            if p + q < 0.999 && p > 0.001 && q > 0.001 {
+                assert_eq!(out.verdict, Verdict::Hit, "{seed} {i}");
+                assert!(out.t <= eye.distance(target) + 1e-9, "{seed} {i}: {out:?}");
+            }
+            // A parallelogram is met there or nowhere.
+            let (arm, normal) = (target - corners[0], u.cross(v));
+            let s = arm.cross(v).dot(normal) / normal.length_squared();
+            let t = u.cross(arm).dot(normal) / normal.length_squared();
+            let is_beyond = s.min(1.0 - s).min(t).min(1.0 - t) < -1e-6;
+            if lift == 0.0 && is_beyond {
+                beyond += 1;
+                assert_eq!(out.verdict, Verdict::Miss, "{seed} {i}: {s} {t}");
+            }
+            if out.verdict == Verdict::Hit {
+                let field = value(&quad, ray.origin + out.t * ray.direction);
+                assert!(field.abs() < 1e-12, "{seed} {i}: {field}");
+            }
+        }
+    }
+    assert!(beyond > 500, "{beyond}");
+}
+
+#[test]
+fn rays_along_the_rim_of_a_fractal_come_to_an_end() {
+    let bulb = leaf(AnyPrimitive::Mandelbulb(Mandelbulb::new(8.0, 3.0)));
+    let world = world(&bulb, Method::Auto);
+    let rays = aimed(4000, 5);
+    let outcomes = world.nearest(&rays, Visibility::All);
+    let mut evaluations = 0;
+    for (ray, out) in rays.iter().zip(&outcomes) {
+        assert_ne!(out.verdict, Verdict::Unknown);
+        evaluations += u64::from(out.evaluations);
+        if out.verdict == Verdict::Hit {
+            let at = |t: f64| value(&bulb, ray.origin + t * ray.direction);
+            let (before, behind) = (at(out.t - 2.0 * out.error), at(out.t + 2.0 * out.error));
+            assert!(
+                before * behind <= 0.0 || before.abs() < 1e-12,
+                "{ray:?}: {out:?}"
+            );
+        }
+    }
+    let most = outcomes.iter().map(|out| out.evaluations).max();
+    // Where a few rays are looked into down to rounding, they take more than all the others.
+    assert!(evaluations < 300 * 4000, "{evaluations}");
+    assert!(most < Some(10_000), "{most:?}");
+}

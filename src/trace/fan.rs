@@ -18,8 +18,12 @@ pub(super) const STRAGGLERS: i64 = 3;
 /// A lane lags behind after so many evaluations.
 pub(super) const PATIENCE: i64 = 24;
 
-/// How often a lane may be asked for 32 places before it goes on by itself.
-const MAX_FANS: usize = 256;
+/// How many evaluations a lane may take before it goes on by itself.
+const MOST: i64 = 16_384;
+
+/// After how many evaluations gaps below which share of the tolerance are not looked into any more: along the rim of a
+/// fractal, where a field that is far below the distance stays small for long.
+const COARSER: [(i64, f64); 2] = [(2048, 1.0 / 16.0), (512, 1.0 / 1024.0)];
 
 impl Packet {
     /// Whether a lane steps along close to a surface after a long way.
@@ -64,7 +68,7 @@ pub(super) fn fan(packet: &mut Packet, lane: usize, value: &Closure<F64x32>, rul
     let (mut last_t, mut last) = (p.last_t[lane], p.last_value[lane]);
     // The gap that was not free in the fan before.
     let mut doubt = f64::INFINITY;
-    for _ in 0..MAX_FANS {
+    while p.evaluations[lane] < MOST {
         let epsilon = p.epsilon(lane, rules);
         let free = last.abs() / slope;
         if last_t + free > limit {
@@ -77,13 +81,16 @@ pub(super) fn fan(packet: &mut Packet, lane: usize, value: &Closure<F64x32>, rul
             p.t[lane] = last_t + free;
             return;
         }
-        let rounding = finest(p.size[lane], last_t);
+        let asked = p.evaluations[lane];
+        let coarser = COARSER.iter().find(|(after, _)| asked > *after);
+        let share = coarser.map_or(0.0, |(_, share)| *share);
+        let shortest = finest(p.size[lane], last_t).max(share * epsilon);
         let width = if doubt < f64::INFINITY {
             doubt / WIDTH as f64
         } else {
             (SHYNESS * free).max(epsilon / WIDTH as f64)
         };
-        let width = width.max(rounding);
+        let width = width.max(shortest);
         doubt = f64::INFINITY;
         let mut t = [0.0; WIDTH];
         for k in 0..WIDTH {
@@ -128,7 +135,7 @@ pub(super) fn fan(packet: &mut Packet, lane: usize, value: &Closure<F64x32>, rul
                 p.enclose(lane, (t[k], now));
                 return;
             }
-            if differs || (sum < slope * gap * (1.0 - 1e-9) && gap > rounding) {
+            if differs || (sum < slope * gap * (1.0 - 1e-9) && gap > 1.5 * shortest) {
                 // The next fan looks closer from here.
                 doubt = gap;
                 break;

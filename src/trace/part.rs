@@ -354,7 +354,8 @@ fn widened(bounds: Bounds) -> Bounds {
     bounds.inflate(size * 1e-9)
 }
 
-/// The parts that the hard union at the root of `node` falls apart into, each with its paint and transforms.
+/// The parts that the hard union at the root of `node` falls apart into, each with its paint and transforms; a
+/// quadrilateral falls apart into its triangles.
 pub fn flatten(node: &Arc<Node>) -> Vec<Arc<Node>> {
     let inherit = |child: Arc<Node>| {
         let child = match node.paint() {
@@ -371,6 +372,16 @@ pub fn flatten(node: &Arc<Node>) -> Vec<Arc<Node>> {
             },
             children,
         ) if blend.is_hard() => children.iter().flat_map(flatten).map(inherit).collect(),
+        Shape::Primitive(AnyPrimitive::Quad(quad)) => {
+            let halves = quad
+                .halves()
+                .map(AnyPrimitive::Triangle)
+                .map(Node::primitive);
+            match halves.into_iter().collect::<Result<Vec<_>, _>>() {
+                Ok(halves) => halves.into_iter().map(inherit).collect(),
+                Err(_) => vec![node.clone()],
+            }
+        }
         Shape::Field(field) if field.claimed.is_none() => match field.graph.parts() {
             Parts::Least(parts) => match of_field(field, parts) {
                 Some(parts) => parts.into_iter().map(inherit).collect(),

@@ -30,6 +30,9 @@ const AWAY: f64 = 1.0;
 /// More narrowings than halving needs from any width to rounding; and how many samples may be taken inside of one step.
 const MAX_NARROWINGS: i64 = 200;
 
+/// After so many evaluations lanes that lag behind are walked one by one, however many go on.
+const LONG: u32 = 256;
+
 /// Walks the lanes of a packet until each has found something or has come to the end of its stretch, or until few are left.
 pub(super) struct Stride<'a> {
     /// The lanes.
@@ -60,13 +63,13 @@ impl Task for Stride<'_> {
         if count(&packet.state, state::is_going) <= few {
             return;
         }
-        loop {
+        for round in 1u32.. {
             let values = value(&places(&packet.origin, &packet.direction, &packet.t));
             let going = step(packet, &values.0, rules, inverse, scouted);
             if going <= few {
                 return;
             }
-            if going <= STRAGGLERS {
+            if going <= STRAGGLERS || round.is_multiple_of(LONG) {
                 for lane in 0..WIDTH {
                     if packet.lags(lane, rules) {
                         fan(packet, lane, value, rules);

@@ -52,6 +52,19 @@ fn complex_power<N: Number>(a: N, b: N, n: u32) -> (N, N) {
     (x, y)
 }
 
+/// The positive root of degree `n` of a positive number: square roots as far as they go, since these are cheap.
+#[inline(always)]
+fn root<N: Number>(x: N, n: u32) -> N {
+    let mut root = x;
+    for _ in 0..n.trailing_zeros() {
+        root = root.sqrt();
+    }
+    match n >> n.trailing_zeros() {
+        1 => root,
+        odd => (root.ln() * N::splat(1.0 / f64::from(odd))).exp(),
+    }
+}
+
 impl Mandelbulb {
     /// The point with its length raised to the power and both its angles multiplied.
     #[inline(always)]
@@ -68,11 +81,12 @@ impl Mandelbulb {
     #[inline(always)]
     fn reach<N: Number>(&self, size: N, h: N, s: f64) -> N {
         let n = self.power;
-        let log =
-            (size.powi(n as i32 - 1) + N::splat(1.0 / (n * s))).ln() * N::splat(1.0 / (n - 1.0));
-        let b = log.exp();
+        let b = root(
+            size.powi(n as i32 - 1) + N::splat(1.0 / (n * s)),
+            n as u32 - 1,
+        );
         let gain = h * N::splat(1.0 / s);
-        let end = (((log * N::splat(n)).exp() + gain).ln() * N::splat(1.0 / n)).exp();
+        let end = root(b.powi(n as i32) + gain, n as u32);
         // end^n - b^n is (end - b) times this sum of products.
         let (mut sum, mut power) = (N::splat(1.0), N::splat(1.0));
         for _ in 1..n as u32 {

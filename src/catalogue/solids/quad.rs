@@ -1,7 +1,7 @@
 //! The quadrilateral.
 
 use crate::catalogue::space_geometry::{cross, dot, minus, normal_of, triangle_distance};
-use crate::catalogue::{Bounds, Primitive, Range, Traits, declaration::entry};
+use crate::catalogue::{Bounds, Primitive, Range, Traits, Triangle, declaration::entry};
 use crate::num::{Number, Vec3};
 
 entry! {
@@ -21,6 +21,16 @@ entry! {
     }
     source "the nearer of two triangles (Quilez, distance functions: triangle, quad); a distance, so its constant is 1"
     example "quad([-0.8, -0.3, 0.6], [0.8, -0.3, 0.6], [0.8, 0.3, -0.6], [-0.8, 0.3, -0.6])"
+}
+
+impl Quad {
+    /// The two triangles that it is made of, with their fronts on its front.
+    pub fn halves(&self) -> [Triangle; 2] {
+        [
+            Triangle::new(self.a, self.b, self.c),
+            Triangle::new(self.a, self.c, self.d),
+        ]
+    }
 }
 
 impl Primitive for Quad {

@@ -18,6 +18,7 @@ mod periodic;
 mod plane_geometry;
 mod primitive;
 mod profiles;
+mod runs;
 mod solids;
 mod space_geometry;
 
@@ -55,10 +56,10 @@ declaration::list!($
     /// Any primitive of the catalogue.
     AnyPrimitive, with_primitive, with_compiled_primitive, with_recorded_primitive:
     Sphere, Ellipsoid, Cuboid, Plane, Triangle, Cylinder, Cone, Capsule, Torus, BoxFrame, Slab, CappedCone,
-    Circle, Rectangle, Polygon;
+    Circle, Rectangle, Polygon, Polyline;
     recorded Link, Rod, RoundCone, CappedTorus, CutSphere, SolidAngle, Lens, Vesica, Rhombus, Prism, Pyramid,
     Tetrahedron, Octahedron, Dodecahedron, Icosahedron, Quad, Tube, Helix,
-    Ring, Segment, Ellipse, RegularPolygon, Star, Triangle2, Trapezoid, Parallelogram, Rhombus2, Polyline, Bezier, Arc,
+    Ring, Segment, Ellipse, RegularPolygon, Star, Triangle2, Trapezoid, Parallelogram, Rhombus2, Bezier, Arc,
     Pie, Vesica2, Moon, Egg, Heart, Cross2,
     Gyroid, SchwarzP, SchwarzD, Superellipsoid, Menger, Sierpinski, Julia, Mandelbulb, Blob
 );

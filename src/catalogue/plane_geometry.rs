@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Edge {
     start: [f64; 2],
+    end: [f64; 2],
     along: [f64; 2],
     length: f64,
 }
@@ -23,6 +24,21 @@ pub(super) struct EdgeDistance<N> {
     pub is_within: N,
 }
 
+impl<N: Number> EdgeDistance<N> {
+    /// The distance from an edge where [`Edge::beside`] says this.
+    #[inline(always)]
+    pub fn of(side: N, beyond: N) -> Self {
+        let (zero, one) = (N::splat(0.0), N::splat(1.0));
+        // Past an end, the distance to it: the perpendicular part and what is left along the edge.
+        let end = side.hypot(beyond);
+        Self {
+            distance: N::select_lt(zero, beyond, end, side.abs()),
+            signed: N::select_lt(zero, beyond, end, side),
+            is_within: one - N::select_lt(zero, beyond, one, zero),
+        }
+    }
+}
+
 impl Edge {
     /// The edge between two points; of length 0 where they are the same.
     pub fn new(a: [f64; 2], b: [f64; 2]) -> Self {
@@ -36,6 +52,7 @@ impl Edge {
         };
         Self {
             start: a,
+            end: b,
             along: unit,
             length,
         }
@@ -52,19 +69,23 @@ impl Edge {
     /// The distance to the edge.
     #[inline(always)]
     pub fn distance<N: Number>(&self, x: N, y: N) -> EdgeDistance<N> {
-        let (zero, one, length) = (N::splat(0.0), N::splat(1.0), N::splat(self.length));
+        let (side, beyond) = self.beside(x, y);
+        EdgeDistance::of(side, beyond)
+    }
+
+    /// The signed distance from the edge's line, as [`Edge::side`], and how far beyond its ends the foot lies: 0 within.
+    #[inline(always)]
+    pub fn beside<N: Number>(&self, x: N, y: N) -> (N, N) {
         let (u, v) = (x - N::splat(self.start[0]), y - N::splat(self.start[1]));
         let foot = u * N::splat(self.along[0]) + v * N::splat(self.along[1]);
         let side = u * N::splat(self.along[1]) - v * N::splat(self.along[0]);
-        // Past an end, the distance to it: the perpendicular part and what is left along the edge.
-        let beyond = (-foot).max(foot - length);
-        let end = side.hypot(beyond.max(zero));
-        let outside = N::select_lt(zero, beyond, one, zero);
-        EdgeDistance {
-            distance: N::select_lt(zero, beyond, end, side.abs()),
-            signed: N::select_lt(zero, beyond, end, side),
-            is_within: one - outside,
-        }
+        let beyond = (-foot).max(foot - N::splat(self.length));
+        (side, beyond.max(N::splat(0.0)))
+    }
+
+    /// Its ends.
+    pub fn ends(&self) -> [[f64; 2]; 2] {
+        [self.start, self.end]
     }
 
     /// The distance to the edge with the sign of the side, past its ends too: the field of an outline whose nearest point
@@ -80,7 +101,7 @@ impl Edge {
     /// Flips the sign of `sign` (1 or -1) where a line from `(x, y)` towards +x crosses the edge.
     #[inline(always)]
     pub fn crossing<N: Number>(&self, x: N, y: N, sign: N) -> N {
-        let (y0, y1) = (self.start[1], self.start[1] + self.along[1] * self.length);
+        let (y0, y1) = (self.start[1], self.end[1]);
         let (low, high) = (N::splat(y0.min(y1)), N::splat(y0.max(y1)));
         let side = if y1 > y0 {
             -self.side(x, y)

@@ -123,6 +123,13 @@ impl<N: Number, const K: usize> Neg for Dual<N, K> {
 }
 
 impl<N: Number, const K: usize> Number for Dual<N, K> {
+    const LEAVES_OUT: bool = N::LEAVES_OUT;
+
+    #[inline(always)]
+    fn may_be_below(self, other: Self) -> bool {
+        self.value.may_be_below(other.value)
+    }
+
     #[inline(always)]
     fn splat(x: f64) -> Self {
         Self {

@@ -111,6 +111,17 @@ impl<T: Float, const W: usize> Neg for Lanes<T, W> {
 }
 
 impl<T: Float, const W: usize> Number for Lanes<T, W> {
+    const LEAVES_OUT: bool = true;
+
+    #[inline(always)]
+    fn may_be_below(self, other: Self) -> bool {
+        let mut any = false;
+        for i in 0..W {
+            any |= self.0[i] < other.0[i];
+        }
+        any
+    }
+
     #[inline(always)]
     fn splat(x: f64) -> Self {
         Self([T::from_f64(x); W])

@@ -27,6 +27,9 @@ pub trait Number:
     /// [`Number::with_convexity`] say more than the operations that a function is made of.
     const HAS_BENDS: bool = false;
 
+    /// Whether [`Number::may_be_below`] says anything. Then what has no say may be left out.
+    const LEAVES_OUT: bool = false;
+
     /// The constant `x` (rounded to the type; in an interval, an interval that contains `x`).
     fn splat(x: f64) -> Self;
 
@@ -69,6 +72,12 @@ pub trait Number:
 
     /// `x` where `a < b`, else `y` (also where the comparison is undefined).
     fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self;
+
+    /// Whether `self < other` may hold, in any lane; always, where that is not known.
+    #[inline(always)]
+    fn may_be_below(self, _other: Self) -> bool {
+        true
+    }
 
     /// What [`Number::select_lt`] means for the derivatives `x` and `y` of its branches. Where an interval cannot
     /// decide the comparison, the function may jump, so the derivative is unbounded.

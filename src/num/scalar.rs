@@ -6,6 +6,12 @@ use super::{Number, kernels};
 macro_rules! scalar {
     ($type:ty) => {
         impl Number for $type {
+            const LEAVES_OUT: bool = true;
+
+            #[inline(always)]
+            fn may_be_below(self, other: Self) -> bool {
+                self < other
+            }
             #[inline(always)]
             fn splat(x: f64) -> Self {
                 x as $type

@@ -1,6 +1,7 @@
 //! The polygon.
 
 use crate::catalogue::plane_geometry::{Edge, area, bounds_around, crossing_edges, outline};
+use crate::catalogue::runs::Runs;
 use crate::catalogue::{Argument, Bounds, Primitive, Range, Traits, declaration::entry};
 use crate::num::{Number, Vec3};
 
@@ -11,7 +12,7 @@ entry! {
         points: Vec<[f64; 2]>, Points, Range::ANY, default vec![[-0.6, -0.4], [0.6, -0.4], [0.0, 0.7]];
     }
     derived {
-        edges: Vec<Edge> = outline(&distinct(&points));
+        runs: Runs = Runs::new(outline(&distinct(&points)));
     }
     source "Quilez, 2D distance functions (polygon), with the even-odd rule; a distance, so its constant is 1"
     example "polygon([[-0.6, -0.4], [0.6, -0.4], [0, 0.7]]).extrude(0.4)"
@@ -30,19 +31,16 @@ fn distinct(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 impl Primitive for Polygon {
     #[inline(always)]
     fn distance<N: Number>(&self, p: &Vec3<N>) -> N {
-        let mut nearest = N::splat(f64::INFINITY);
-        let mut signed = nearest;
-        let mut is_within = N::splat(0.0);
-        let mut sign = N::splat(1.0);
-        for edge in &self.edges {
-            let found = edge.distance(p.x, p.y);
-            signed = N::select_lt(found.distance, nearest, found.signed, signed);
-            is_within = N::select_lt(found.distance, nearest, found.is_within, is_within);
-            nearest = nearest.min(found.distance);
-            sign = edge.crossing(p.x, p.y, sign);
-        }
+        let nearest = self.runs.nearest(p.x, p.y);
+        let sign = self.runs.parity(p.x, p.y);
         // Beside an edge its line tells the side, smoothly through zero; at a corner the even-odd rule does.
-        N::select_lt(N::splat(0.5), is_within, signed, nearest * sign)
+        let half = N::splat(0.5);
+        N::select_lt(
+            half,
+            nearest.is_within,
+            nearest.signed,
+            nearest.distance * sign,
+        )
     }
 
     fn sublevel(&self, level: f64) -> Bounds {
@@ -52,7 +50,7 @@ impl Primitive for Polygon {
     fn traits(&self) -> Traits {
         let is_left = |edge: &Edge| self.points.iter().all(|p| edge.side(p[0], p[1]) <= 0.0);
         Traits {
-            is_convex: self.edges.iter().all(is_left),
+            is_convex: self.runs.edges().iter().all(is_left),
             ..Traits::EXACT
         }
         .planar()

@@ -1,6 +1,7 @@
 //! The polyline.
 
 use crate::catalogue::plane_geometry::{Edge, bounds_around};
+use crate::catalogue::runs::Runs;
 use crate::catalogue::{Bounds, Class, Primitive, Range, Traits, declaration::entry};
 use crate::num::{Number, Vec3};
 
@@ -16,7 +17,7 @@ entry! {
         width: f64, Number, Range::POSITIVE, default 0.2;
     }
     derived {
-        edges: Vec<Edge> = points.windows(2).map(|pair| Edge::new(pair[0], pair[1])).collect();
+        runs: Runs = Runs::new(points.windows(2).map(|pair| Edge::new(pair[0], pair[1])).collect());
     }
     source "Quilez, 2D distance functions (segment), the nearest of several; a distance from the middle line, so its constant is 1"
     example "polyline([[-0.8, -0.4], [-0.2, 0.5], [0.2, -0.5], [0.8, 0.4]], 0.2).extrude(0.3)"
@@ -25,11 +26,7 @@ entry! {
 impl Primitive for Polyline {
     #[inline(always)]
     fn distance<N: Number>(&self, p: &Vec3<N>) -> N {
-        let mut nearest = N::splat(f64::INFINITY);
-        for edge in &self.edges {
-            nearest = nearest.min(edge.distance(p.x, p.y).distance);
-        }
-        nearest - N::splat(0.5 * self.width)
+        self.runs.nearest(p.x, p.y).distance - N::splat(0.5 * self.width)
     }
 
     fn sublevel(&self, level: f64) -> Bounds {
@@ -37,7 +34,7 @@ impl Primitive for Polyline {
     }
 
     fn traits(&self) -> Traits {
-        let is_straight = self.edges.len() == 1;
+        let is_straight = self.runs.edges().len() == 1;
         Traits {
             // Inside of a bend the surface is further away than the stroke's half width says.
             class: if is_straight {

@@ -60,8 +60,9 @@ impl Run {
     /// The square of the distance from the box.
     #[inline(always)]
     fn least<N: Number>(&self, x: N, y: N) -> N {
-        let [u, v] = self.beyond(x, y).map(|d| d.max(N::splat(0.0)));
-        u.square() + v.square()
+        let [u, v] = self.beyond(x, y);
+        let zero = N::splat(0.0);
+        u.max(zero).square() + v.max(zero).square()
     }
 
     /// The square of the distance to the farthest corner of the box.

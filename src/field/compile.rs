@@ -121,21 +121,28 @@ const MANY_REGISTERS: usize = 32;
 
 /// The functions that make closures, for one level.
 macro_rules! builders {
-    ($(#[$feature:meta])* mod $level:ident) => {
+    ($(#[$feature:meta])* mod $level:ident; whole: $whole:literal) => {
         mod $level {
             use super::{Closure, FEW_REGISTERS, MANY_REGISTERS, SOME_REGISTERS, Walked};
-            use crate::catalogue::{Blend, Combination, Modifier, Operation, Primitive, Similarity};
-            use crate::catalogue::{with_compiled_blend, with_compiled_modifier, with_compiled_primitive};
+            use crate::catalogue::{AnyPrimitive, Blend, Combination, Modifier, Operation, Primitive, Similarity};
+            use crate::catalogue::{with_blend, with_compiled_blend, with_compiled_modifier, with_compiled_primitive};
+            use crate::catalogue::{with_modifier, with_primitive};
             use crate::num::{Number, Vec3};
             use crate::scene::{Graph, Node, Program, Shape};
             use std::sync::Arc;
+
+            /// Whether all entries of the catalogue are compiled for `N`, also those that otherwise run as graphs: their
+            /// results have the same bits.
+            const fn is_whole<N: Number>() -> bool {
+                $whole && N::LANES > 1
+            }
 
             /// The closure of a node: transforms that keep angles are folded into one.
             $(#[$feature])*
             pub(super) fn build<N: Number, const GRAPHS: bool>(node: &Node) -> Closure<N> {
                 let (map, inner) = node.unplaced();
                 if let Shape::Primitive(primitive) = inner.shape()
-                    && let Some(leaf) = with_compiled_primitive!(primitive, p => leaf(p.clone(), map))
+                    && let Some(leaf) = primitive_at::<N>(primitive, map)
                 {
                     return leaf;
                 }
@@ -145,13 +152,12 @@ macro_rules! builders {
 
             $(#[$feature])*
             fn warped<N: Number, const GRAPHS: bool>(node: &Node) -> Closure<N> {
-                if let Some(graph) = node.graph().filter(|_| GRAPHS) {
+                let is_formula = matches!(node.shape(), Shape::Field(_) | Shape::Displacement(_));
+                if let Some(graph) = node.graph().filter(|_| GRAPHS && (is_formula || !is_whole::<N>())) {
                     return recorded(graph);
                 }
                 let compiled = match node.shape() {
-                    Shape::Primitive(primitive) => {
-                        with_compiled_primitive!(primitive, p => leaf(p.clone(), Similarity::IDENTITY))
-                    }
+                    Shape::Primitive(primitive) => primitive_at(primitive, Similarity::IDENTITY),
                     Shape::Field(_) => None,
                     Shape::Combination(combination, children) => {
                         let children = children.iter().map(|c| build::<N, GRAPHS>(c)).collect();
@@ -159,12 +165,25 @@ macro_rules! builders {
                     }
                     Shape::Modifier(modifier, child) => {
                         let child = build::<N, GRAPHS>(child);
-                        with_compiled_modifier!(modifier, m => modified(m.clone(), child))
+                        if is_whole::<N>() {
+                            Some(with_modifier!(modifier, m => modified(m.clone(), child)))
+                        } else {
+                            with_compiled_modifier!(modifier, m => modified(m.clone(), child))
+                        }
                     }
                     Shape::Displacement(_) => None,
                 };
                 // Not a number: a walk that meets it ends as unknown.
                 compiled.unwrap_or_else(|| Arc::new(|_: &Vec3<N>| N::splat(f64::NAN)))
+            }
+
+            $(#[$feature])*
+            fn primitive_at<N: Number>(primitive: &AnyPrimitive, map: Similarity) -> Option<Closure<N>> {
+                if is_whole::<N>() {
+                    Some(with_primitive!(primitive, p => leaf(p.clone(), map)))
+                } else {
+                    with_compiled_primitive!(primitive, p => leaf(p.clone(), map))
+                }
             }
 
             $(#[$feature])*
@@ -195,7 +214,12 @@ macro_rules! builders {
             /// The closure of a combination of closures that are there already.
             $(#[$feature])*
             pub(super) fn combined<N: Number>(combination: &Combination, children: Vec<Closure<N>>) -> Option<Closure<N>> {
-                with_compiled_blend!(&combination.blend, b => joined(combination.operation, b.clone(), children))
+                let operation = combination.operation;
+                if is_whole::<N>() {
+                    Some(with_blend!(&combination.blend, b => joined(operation, b.clone(), children)))
+                } else {
+                    with_compiled_blend!(&combination.blend, b => joined(operation, b.clone(), children))
+                }
             }
 
             $(#[$feature])*
@@ -293,8 +317,8 @@ macro_rules! builders {
     };
 }
 
-builders! { mod baseline }
+builders! { mod baseline; whole: false }
 #[cfg(target_arch = "x86_64")]
-builders! { #[target_feature(enable = "avx2")] mod avx2 }
+builders! { #[target_feature(enable = "avx2")] mod avx2; whole: true }
 #[cfg(target_arch = "x86_64")]
-builders! { #[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl")] mod avx512 }
+builders! { #[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl")] mod avx512; whole: true }

@@ -111,6 +111,7 @@ impl<T: Float, const W: usize> Neg for Lanes<T, W> {
 }
 
 impl<T: Float, const W: usize> Number for Lanes<T, W> {
+    const LANES: usize = W;
     const LEAVES_OUT: bool = true;
 
     #[inline(always)]

@@ -27,6 +27,9 @@ pub trait Number:
     /// [`Number::with_convexity`] say more than the operations that a function is made of.
     const HAS_BENDS: bool = false;
 
+    /// How many lanes there are; 1 where there are none, and of numbers made of others.
+    const LANES: usize = 1;
+
     /// Whether [`Number::may_be_below`] says anything. Then what has no say may be left out.
     const LEAVES_OUT: bool = false;
 

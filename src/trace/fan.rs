@@ -7,7 +7,7 @@
 
 use super::bundle::WIDTH;
 use super::method::finest;
-use super::packet::{Packet, Rules, places, state};
+use super::packet::{Packet, Rules, patience, places, state};
 use super::stride::SHYNESS;
 use crate::field::Closure;
 use crate::num::F64x32;
@@ -21,9 +21,12 @@ pub(super) const PATIENCE: i64 = 24;
 /// How many evaluations a lane may take before it goes on by itself.
 const MOST: i64 = 16_384;
 
-/// After how many evaluations gaps below which share of the tolerance are not looked into any more: along the rim of a
-/// fractal, where a field that is far below the distance stays small for long.
-const COARSER: [(i64, f64); 2] = [(2048, 1.0 / 16.0), (512, 1.0 / 1024.0)];
+/// After so many evaluations a lane is stuck.
+const LONG: i64 = 1024;
+
+/// After how many evaluations gaps below which share of the tolerance are not looked into any more where ranges say nothing:
+/// along the rim of a fractal, where a field that is far below the distance stays small for long.
+const COARSER: [(i64, f64); 2] = [(2048, 1.0 / 16.0), (0, 1.0 / 1024.0)];
 
 impl Packet {
     /// Whether a lane steps along close to a surface after a long way.
@@ -83,7 +86,15 @@ pub(super) fn fan(packet: &mut Packet, lane: usize, value: &Closure<F64x32>, rul
         }
         let asked = p.evaluations[lane];
         let coarser = COARSER.iter().find(|(after, _)| asked > *after);
-        let share = coarser.map_or(0.0, |(_, share)| *share);
+        let share = match coarser {
+            Some((_, share)) if p.patience[lane] == patience::COARSE => *share,
+            _ => 0.0,
+        };
+        if p.patience[lane] == patience::SHORT && asked > LONG {
+            p.state[lane] = state::STUCK;
+            p.t[lane] = last_t + free.max(epsilon);
+            return;
+        }
         let shortest = finest(p.size[lane], last_t).max(share * epsilon);
         let width = if doubt < f64::INFINITY {
             doubt / WIDTH as f64

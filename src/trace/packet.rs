@@ -38,6 +38,8 @@ pub(super) mod state {
     pub const SINGLE: i64 = 8;
     /// It steps through free space in single precision.
     pub const FAR: i64 = 9;
+    /// It has crept along close to a surface for long: ranges are asked whether there is one.
+    pub const STUCK: i64 = 10;
 
     /// Whether it steps or looks for a pair of roots.
     #[inline(always)]
@@ -56,6 +58,16 @@ pub(super) mod state {
     pub fn is_going(state: i64) -> bool {
         state > IDLE && state < ARRIVED
     }
+}
+
+/// How closely a lane looks where it creeps along a surface, as 64-bit numbers.
+pub(super) mod patience {
+    /// As closely as rounding allows, and soon it is stuck.
+    pub const SHORT: i64 = 0;
+    /// So, for long: ranges did not decide.
+    pub const LONG: i64 = 1;
+    /// Not into gaps far below the tolerance: ranges say nothing.
+    pub const COARSE: i64 = 2;
 }
 
 /// How many lanes are looked at side by side.
@@ -108,6 +120,8 @@ pub(super) struct Packet {
     pub(super) rough: [i64; WIDTH],
     /// Whether single precision says too little where the lane is.
     pub(super) close: [i64; WIDTH],
+    /// How closely it looks where it creeps along a surface.
+    pub(super) patience: [i64; WIDTH],
     pub(super) steps: [i64; WIDTH],
     pub(super) narrowings: [i64; WIDTH],
     pub(super) evaluations: [i64; WIDTH],
@@ -155,7 +169,7 @@ macro_rules! copy_lane {
         copy_lane! {
             $from, $source => $to, $lane;
             footprint spread size far grid finer start end limit t error side last_t last_value known high_t high_value state departed
-            rough close steps narrowings evaluations ray
+            rough close patience steps narrowings evaluations ray
         }
     }};
     ($from:expr, $source:expr => $to:expr, $lane:expr; $($column:ident)*) => {
@@ -227,6 +241,7 @@ impl Task for Load<'_> {
         }
         p.rough = [0; WIDTH];
         p.close = [0; WIDTH];
+        p.patience = [patience::SHORT; WIDTH];
         p.far = [f64::INFINITY; WIDTH];
         p.error = [0.0; WIDTH];
         p.last_t = [f64::NEG_INFINITY; WIDTH];
@@ -436,13 +451,18 @@ impl Packet {
         places(&self.origin, &self.direction, t)
     }
 
-    /// Which lanes have found something since the last time, with the rare ones walked to their ends one by one.
+    /// Which lanes have found something since the last time, with the rare ones walked to their ends one by one. Those that
+    /// are stuck, and of which ranges cannot tell, go on.
     pub fn found(&mut self, rules: &Rules, marched: &Marched, sink: &mut Vec<Found>) {
         for lane in 0..WIDTH {
             let ending = match self.state[lane] {
                 state::HIT => self.hit(lane),
                 state::REFUTED => self.refuted(lane, marched),
                 state::SINGLE => self.single(lane, rules, marched),
+                state::STUCK => match self.stuck(lane, rules, marched) {
+                    Some(ending) => ending,
+                    None => continue,
+                },
                 _ => continue,
             };
             self.state[lane] = state::IDLE;
@@ -459,10 +479,8 @@ impl Packet {
         let is_by_tangents = self.error[lane] > 0.0;
         let t = if is_by_tangents {
             self.t[lane]
-        } else if b == 0.0 {
-            high
-        } else if is_on_grid {
-            low + a / (a - b) * width
+        } else if b == 0.0 || is_on_grid {
+            place_in_cell((low, a), (high, b))
         } else {
             low + 0.5 * width
         };
@@ -478,6 +496,14 @@ impl Packet {
             steps: self.steps[lane] as u32,
         }
     }
+}
+
+/// Where in a cell of the grid the surface is, between two samples.
+pub(super) fn place_in_cell((low, a): (f64, f64), (high, b): (f64, f64)) -> f64 {
+    if b == 0.0 {
+        return high;
+    }
+    low + a / (a - b) * (high - low)
 }
 
 /// The spacing of the places where a ray's hits are enclosed: a power of two that depends on the ray and the part alone.

@@ -2,13 +2,16 @@
 //! or walk along a sheet.
 
 use super::evidence::{Trail, Witness};
-use super::method::{Certified, Convex, Ending, Segment, Walk};
-use super::packet::{Lane, Packet, Rules};
+use super::method::{Certified, Convex, Ending, Segment, Walk, finest};
+use super::packet::{Lane, Packet, Rules, patience, place_in_cell, state};
 use super::part::{Marched, Slope};
-use super::survey::decided;
-use super::{Footprint, Ray};
+use super::survey::{decided, is_told, tried};
+use super::{Footprint, Ray, Verdict};
 use crate::num::{Dual, Vec3};
 use glam::DVec3;
+
+/// The share of the way on before a lane that is stuck over which ranges are asked.
+const NEARBY: f64 = 0.5;
 
 impl Packet {
     /// Walks a lane to its end outside of the lanes.
@@ -21,6 +24,63 @@ impl Packet {
         };
         let (ending, evaluations) = decided(marched, &ray, segment, ending);
         self.evaluations[lane] += i64::from(evaluations);
+        if marched.is_sheet || marched.slope.is_some() {
+            return ending;
+        }
+        self.aligned(lane, ending, marched)
+    }
+
+    /// The end of a lane that is stuck, if ranges tell it soon; else it goes on. Where they tell nothing at all it is content
+    /// with less.
+    pub(super) fn stuck(
+        &mut self,
+        lane: usize,
+        rules: &Rules,
+        marched: &Marched,
+    ) -> Option<Ending> {
+        let segment = self.segment(lane, rules, marched);
+        let ray = self.ray_of(lane);
+        let from = self.last_t[lane];
+        let gap = [from, from + NEARBY * (self.t[lane] - from)];
+        self.state[lane] = state::MARCHING;
+        self.evaluations[lane] += 1;
+        if !is_told(marched, &ray, &segment, gap) {
+            self.patience[lane] = patience::COARSE;
+            return None;
+        }
+        let (ending, evaluations) = tried(marched, &ray, segment);
+        self.evaluations[lane] += i64::from(evaluations);
+        if ending.is_open() {
+            self.patience[lane] = patience::LONG;
+            return None;
+        }
+        let steps = self.steps[lane] as u32 + ending.steps;
+        Some(self.aligned(lane, Ending { steps, ..ending }, marched))
+    }
+
+    /// A hit on the grid of the lane where the field changes its sign there, so that it is the same whichever way the ray
+    /// came to it; other endings as they are.
+    fn aligned(&self, lane: usize, ending: Ending, marched: &Marched) -> Ending {
+        let grid = self.grid[lane];
+        let cell = (ending.t / grid).floor();
+        if ending.verdict != Verdict::Hit || !cell.is_finite() {
+            return ending;
+        }
+        let ray = self.ray_of(lane);
+        let value = |t: f64| {
+            let p = ray.at(t);
+            marched.single()(&Vec3::new(p.x, p.y, p.z))
+        };
+        // The root may lie in a cell beside, by what the ends of the enclosure were rounded.
+        for cell in [cell, cell - 1.0, cell + 1.0] {
+            let low = cell * grid;
+            let (a, b) = (value(low), value(low + grid));
+            if a != 0.0 && (a < 0.0) != (b < 0.0) {
+                let t = place_in_cell((low, a), (low + grid, b));
+                let error = grid.max(finest(self.size[lane], t));
+                return Ending { t, error, ..ending };
+            }
+        }
         ending
     }
 

@@ -55,9 +55,33 @@ pub(super) fn decided(
     )
 }
 
+/// Ranges are of use where they say that the field changes by less than this share of its constant.
+const USEFUL: f64 = 0.25;
+
+/// Whether ranges say where the ray is stuck, from `from` to `to`, that the field hardly changes.
+pub(super) fn is_told(part: &Marched, ray: &Ray, segment: &Segment, [from, to]: [f64; 2]) -> bool {
+    let (_, slope) = ranges(part, ray, from, to);
+    slope.magnitude() < USEFUL * segment.lipschitz
+}
+
+/// What ranges say of a segment within some questions; open where they do not tell. And how many evaluations that took.
+pub(super) fn tried(part: &Marched, ray: &Ray, segment: Segment) -> (Ending, u32) {
+    let walked = follow(
+        Resolver::trial(segment),
+        part,
+        ray,
+        &Job { ray: 0, segment },
+    );
+    (walked.ending, walked.evaluations)
+}
+
 /// Walks one ray to its end.
 fn walk<W: Walk>(part: &Marched, ray: &Ray, job: &Job) -> Walked {
-    let mut walk = W::begin(job.segment);
+    follow(W::begin(job.segment), part, ray, job)
+}
+
+/// Follows a walk of one ray to its end.
+fn follow<W: Walk>(mut walk: W, part: &Marched, ray: &Ray, job: &Job) -> Walked {
     let mut evaluations = 0;
     let mut trail = Trail::default();
     loop {

@@ -412,8 +412,13 @@ impl World {
                 }
             }
             is_hit |= self.settle(visit, k, scratch);
+            // Those that were stuck.
+            while scratch.packets[k].going().next().is_some() {
+                self.advance(visit, stage, &mut scratch.packets[k], 0);
+                is_hit |= self.settle(visit, k, scratch);
+            }
         }
-        if !homes.is_empty() {
+        while !homes.is_empty() {
             self.advance(visit, stage, &mut scratch.packets[MIXED], 0);
             is_hit |= self.disband(visit, &mut homes, scratch);
         }

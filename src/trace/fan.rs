@@ -19,7 +19,7 @@ pub(super) const STRAGGLERS: i64 = 3;
 pub(super) const PATIENCE: i64 = 24;
 
 /// How many evaluations a lane may take before it goes on by itself.
-const MOST: i64 = 16_384;
+const MOST: i64 = 8192;
 
 /// After so many evaluations a lane is stuck.
 const LONG: i64 = 1024;

@@ -38,7 +38,7 @@ pub(super) mod state {
     pub const SINGLE: i64 = 8;
     /// It steps through free space in single precision.
     pub const FAR: i64 = 9;
-    /// It has crept along close to a surface for long: ranges are asked whether there is one.
+    /// It has crept along close to a surface for long: ranges are asked how closely it should look.
     pub const STUCK: i64 = 10;
 
     /// Whether it steps or looks for a pair of roots.
@@ -64,7 +64,7 @@ pub(super) mod state {
 pub(super) mod patience {
     /// As closely as rounding allows, and soon it is stuck.
     pub const SHORT: i64 = 0;
-    /// So, for long: ranges did not decide.
+    /// So, for long: ranges say something.
     pub const LONG: i64 = 1;
     /// Not into gaps far below the tolerance: ranges say nothing.
     pub const COARSE: i64 = 2;
@@ -452,17 +452,17 @@ impl Packet {
     }
 
     /// Which lanes have found something since the last time, with the rare ones walked to their ends one by one. Those that
-    /// are stuck, and of which ranges cannot tell, go on.
+    /// are stuck go on.
     pub fn found(&mut self, rules: &Rules, marched: &Marched, sink: &mut Vec<Found>) {
         for lane in 0..WIDTH {
             let ending = match self.state[lane] {
                 state::HIT => self.hit(lane),
                 state::REFUTED => self.refuted(lane, marched),
                 state::SINGLE => self.single(lane, rules, marched),
-                state::STUCK => match self.stuck(lane, rules, marched) {
-                    Some(ending) => ending,
-                    None => continue,
-                },
+                state::STUCK => {
+                    self.unstick(lane, rules, marched);
+                    continue;
+                }
                 _ => continue,
             };
             self.state[lane] = state::IDLE;

@@ -5,7 +5,7 @@ use super::evidence::{Trail, Witness};
 use super::method::{Certified, Convex, Ending, Segment, Walk, finest};
 use super::packet::{Lane, Packet, Rules, patience, place_in_cell, state};
 use super::part::{Marched, Slope};
-use super::survey::{decided, is_told, tried};
+use super::survey::{decided, is_told};
 use super::{Footprint, Ray, Verdict};
 use crate::num::{Dual, Vec3};
 use glam::DVec3;
@@ -30,32 +30,19 @@ impl Packet {
         self.aligned(lane, ending, marched)
     }
 
-    /// The end of a lane that is stuck, if ranges tell it soon; else it goes on. Where they tell nothing at all it is content
-    /// with less.
-    pub(super) fn stuck(
-        &mut self,
-        lane: usize,
-        rules: &Rules,
-        marched: &Marched,
-    ) -> Option<Ending> {
+    /// Lets a lane that is stuck go on: where ranges say nothing it is content with less.
+    pub(super) fn unstick(&mut self, lane: usize, rules: &Rules, marched: &Marched) {
         let segment = self.segment(lane, rules, marched);
-        let ray = self.ray_of(lane);
         let from = self.last_t[lane];
         let gap = [from, from + NEARBY * (self.t[lane] - from)];
-        self.state[lane] = state::MARCHING;
+        let is_told = is_told(marched, &self.ray_of(lane), &segment, gap);
+        self.patience[lane] = if is_told {
+            patience::LONG
+        } else {
+            patience::COARSE
+        };
         self.evaluations[lane] += 1;
-        if !is_told(marched, &ray, &segment, gap) {
-            self.patience[lane] = patience::COARSE;
-            return None;
-        }
-        let (ending, evaluations) = tried(marched, &ray, segment);
-        self.evaluations[lane] += i64::from(evaluations);
-        if ending.is_open() {
-            self.patience[lane] = patience::LONG;
-            return None;
-        }
-        let steps = self.steps[lane] as u32 + ending.steps;
-        Some(self.aligned(lane, Ending { steps, ..ending }, marched))
+        self.state[lane] = state::MARCHING;
     }
 
     /// A hit on the grid of the lane where the field changes its sign there, so that it is the same whichever way the ray

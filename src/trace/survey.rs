@@ -64,24 +64,9 @@ pub(super) fn is_told(part: &Marched, ray: &Ray, segment: &Segment, [from, to]: 
     slope.magnitude() < USEFUL * segment.lipschitz
 }
 
-/// What ranges say of a segment within some questions; open where they do not tell. And how many evaluations that took.
-pub(super) fn tried(part: &Marched, ray: &Ray, segment: Segment) -> (Ending, u32) {
-    let walked = follow(
-        Resolver::trial(segment),
-        part,
-        ray,
-        &Job { ray: 0, segment },
-    );
-    (walked.ending, walked.evaluations)
-}
-
 /// Walks one ray to its end.
 fn walk<W: Walk>(part: &Marched, ray: &Ray, job: &Job) -> Walked {
-    follow(W::begin(job.segment), part, ray, job)
-}
-
-/// Follows a walk of one ray to its end.
-fn follow<W: Walk>(mut walk: W, part: &Marched, ray: &Ray, job: &Job) -> Walked {
+    let mut walk = W::begin(job.segment);
     let mut evaluations = 0;
     let mut trail = Trail::default();
     loop {

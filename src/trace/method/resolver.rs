@@ -38,24 +38,11 @@ pub struct Resolver {
     /// have started on.
     known: Option<(f64, bool)>,
     steps: u32,
-    /// How many questions may be asked.
-    most: u32,
 }
 
 impl Resolver {
     /// How many questions are asked.
     const MOST: u32 = 16_384;
-
-    /// How many are asked where other ways are left: more than smooth surfaces take.
-    const TRIAL: u32 = 512;
-
-    /// A walk that gives up early.
-    pub fn trial(segment: Segment) -> Self {
-        Self {
-            most: Self::TRIAL,
-            ..Self::begin(segment)
-        }
-    }
 
     /// After how many questions pieces are not cut any more below which share of epsilon.
     const COARSER: [(u32, f64); 2] = [(8192, 1.0 / 16.0), (4096, 1.0 / 1024.0)];
@@ -203,7 +190,6 @@ impl Walk for Resolver {
             phase: Phase::Piece,
             known,
             steps: 0,
-            most: Self::MOST,
         }
     }
 
@@ -234,7 +220,7 @@ impl Walk for Resolver {
 
     fn survey(&mut self, value: Interval, slope: Interval) -> Option<Ending> {
         self.steps += 1;
-        if self.steps > self.most {
+        if self.steps > Self::MOST {
             return self.unknown();
         }
         self.look(value, slope)

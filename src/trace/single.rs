@@ -43,6 +43,8 @@ impl Packet {
         };
         self.evaluations[lane] += 1;
         self.state[lane] = state::MARCHING;
+        // The sample on the way back into the fan is no step of its own.
+        self.steps[lane] -= 1;
     }
 
     /// A hit on the grid of the lane where the field changes its sign there, so that it is the same whichever way the ray

@@ -417,8 +417,8 @@ pub(crate) use entry;
 
 /// Lists the entries of one kind: the enum over all of them, macros that reach inside, and what follows from their
 /// declarations. Entries before the semicolon are compiled for every type of number; those behind `recorded` are compiled for
-/// wide lanes alone, and else run once with a symbol and are evaluated as graphs, which takes no time to build. The first token is a dollar sign, which the
-/// macros inside need.
+/// wide lanes alone, and else run once with a symbol and are evaluated as graphs, which takes no time to build. The first
+/// token is a dollar sign, which the macros inside need.
 macro_rules! list {
     (
         $dollar:tt $(#[doc = $doc:literal])+

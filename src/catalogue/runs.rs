@@ -38,7 +38,7 @@ impl Run {
         let high = [0, 1].map(|i| points().fold(f64::NEG_INFINITY, |high, p| high.max(p[i])));
         let [a, b] = [run[0].ends()[0][1], run[run.len() - 1].ends()[1][1]];
         // The border belongs to the box, whatever rounding says.
-        let room = |i: usize| 1e-6 * (high[i] - low[i]) + 1e-12 * low[i].abs().max(high[i].abs());
+        let room = |i: usize| 1e-6 * low[i].abs().max(high[i].abs()).max(high[i] - low[i]);
         Self {
             first,
             end,
@@ -48,7 +48,7 @@ impl Run {
         }
     }
 
-    /// How far a point is beyond the box along each axis, negative inside; and how far from its middle.
+    /// How far a point is beyond the box along each axis, negative inside.
     #[inline(always)]
     fn beyond<N: Number>(&self, x: N, y: N) -> [N; 2] {
         [
@@ -143,9 +143,10 @@ impl Runs {
                 nearest = nearest.min(run.most(x, y));
             }
             // A little more than that, so that what is that far is found.
-            nearest = nearest * N::splat(1.001);
+            nearest = nearest * N::splat(1.001) + N::splat(1e-30);
         }
-        let (mut side, mut beyond) = (zero, zero);
+        // What is no place has no nearest edge.
+        let (mut side, mut beyond) = (N::splat(f64::NAN), zero);
         for run in &self.runs {
             let least = run.least(x, y);
             if !least.may_be_below(nearest) {
@@ -233,6 +234,48 @@ mod tests {
                 assert!((few.distance - all.distance).abs() <= 1e-15, "{what}");
                 let odd = runs.edges().iter().fold(1.0, |s, e| e.crossing(x, y, s));
                 assert_eq!(runs.parity(x, y), odd, "{what}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_place_has_no_distance() {
+        let mut samples = Samples::new(SEED);
+        for n in [3, 40] {
+            let runs = Runs::new(outline(&star(&mut samples, n)));
+            for (x, y) in [(f64::NAN, 0.0), (3.0, f64::NAN), (f64::INFINITY, 0.0)] {
+                assert!(!runs.nearest(x, y).distance.is_finite());
+            }
+        }
+    }
+
+    #[test]
+    fn lanes_of_single_precision_see_the_same_inside() {
+        let mut samples = Samples::new(SEED);
+        for n in [11, 40, 200] {
+            // Far from the origin, so that coordinates are rounded.
+            let corners = star(&mut samples, n)
+                .into_iter()
+                .map(|[x, y]| [x + 100.0, y - 60.0]);
+            let runs = Runs::new(outline(&corners.collect::<Vec<_>>()));
+            for _ in 0..2000 {
+                let (x, y) = (
+                    samples.uniform(101.0, 105.0) as f32,
+                    samples.uniform(-62.0, -58.0) as f32,
+                );
+                let (near, exact) = (
+                    runs.nearest(x, y),
+                    runs.nearest_of_all(f64::from(x), f64::from(y)),
+                );
+                assert!((f64::from(near.distance) - exact.distance).abs() < 1e-4);
+                if exact.distance > 1e-3 {
+                    let sign = runs.parity(f64::from(x), f64::from(y));
+                    assert_eq!(
+                        f64::from(runs.parity(x, y)),
+                        sign,
+                        "({x}, {y}), seed {SEED:#x}"
+                    );
+                }
             }
         }
     }

@@ -97,7 +97,7 @@ fn at_level<N: Number, const GRAPHS: bool>(node: &Node, level: Level) -> Closure
     }
 }
 
-/// The closure of a combination of closures that were compiled for `level`; none where its blend is a graph.
+/// The closure of a combination of closures that were compiled for `level`; none where its blend is a graph for such numbers.
 pub fn combine<N: Number>(
     combination: &Combination,
     children: Vec<Closure<N>>,

@@ -22,7 +22,7 @@ pub(super) const PATIENCE: i64 = 24;
 const MOST: i64 = 8192;
 
 /// After so many evaluations a lane is stuck.
-const LONG: i64 = 1024;
+const STUCK_AFTER: i64 = 1024;
 
 /// After how many evaluations gaps below which share of the tolerance are not looked into any more where ranges say nothing:
 /// along the rim of a fractal, where a field that is far below the distance stays small for long.
@@ -57,7 +57,8 @@ impl Packet {
 }
 
 /// Walks one lane on at 32 places at once, until it gets away from the surface or finds it: every gap between two places
-/// has to be known to be free, as every step.
+/// has to be known to be free, as every step, but for the shortest: those that rounding leaves, and where ranges say nothing those far
+/// below the tolerance.
 #[inline(always)]
 pub(super) fn fan(packet: &mut Packet, lane: usize, value: &Closure<F64x32>, rules: &Rules) {
     let p = packet;
@@ -82,6 +83,8 @@ pub(super) fn fan(packet: &mut Packet, lane: usize, value: &Closure<F64x32>, rul
         if free > 2.0 * epsilon {
             p.state[lane] = state::MARCHING;
             p.t[lane] = last_t + free;
+            // What it knows of this surface says nothing of the next.
+            p.patience[lane] = patience::SHORT;
             return;
         }
         let asked = p.evaluations[lane];
@@ -90,9 +93,9 @@ pub(super) fn fan(packet: &mut Packet, lane: usize, value: &Closure<F64x32>, rul
             Some((_, share)) if p.patience[lane] == patience::COARSE => *share,
             _ => 0.0,
         };
-        if p.patience[lane] == patience::SHORT && asked > LONG {
+        if p.patience[lane] == patience::SHORT && asked > STUCK_AFTER {
             p.state[lane] = state::STUCK;
-            p.t[lane] = last_t + free.max(epsilon);
+            p.t[lane] = (last_t + free.max(epsilon)).min(limit);
             return;
         }
         let shortest = finest(p.size[lane], last_t).max(share * epsilon);

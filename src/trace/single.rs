@@ -1,5 +1,5 @@
 //! Lanes that go on by themselves: those that run out of steps, meet what is not a number, start inside of a convex shape,
-//! or walk along a sheet.
+//! or walk along a sheet. And those that are stuck, which ask ranges once how closely they should look.
 
 use super::evidence::{Trail, Witness};
 use super::method::{Certified, Convex, Ending, Segment, Walk, finest};
@@ -49,23 +49,29 @@ impl Packet {
 
     /// A hit on the grid of the lane where the field changes its sign there, so that it is the same whichever way the ray
     /// came to it; other endings as they are.
-    fn aligned(&self, lane: usize, ending: Ending, marched: &Marched) -> Ending {
-        let grid = self.grid[lane];
-        let cell = (ending.t / grid).floor();
-        if ending.verdict != Verdict::Hit || !cell.is_finite() {
+    fn aligned(&mut self, lane: usize, ending: Ending, marched: &Marched) -> Ending {
+        let (grid, t) = (self.grid[lane], ending.t);
+        if ending.verdict != Verdict::Hit || !t.is_finite() {
             return ending;
         }
         let ray = self.ray_of(lane);
-        let value = |t: f64| {
+        let mut value = |t: f64| {
             let p = ray.at(t);
+            self.evaluations[lane] += 1;
             marched.single()(&Vec3::new(p.x, p.y, p.z))
         };
-        // The root may lie in a cell beside, by what the ends of the enclosure were rounded.
+        let cell = (t / grid).floor();
+        // The root may lie in a cell beside, if the enclosure reaches there.
         for cell in [cell, cell - 1.0, cell + 1.0] {
-            let low = cell * grid;
-            let (a, b) = (value(low), value(low + grid));
-            if a != 0.0 && (a < 0.0) != (b < 0.0) {
-                let t = place_in_cell((low, a), (low + grid, b));
+            let (low, high) = (cell * grid, (cell + 1.0) * grid);
+            let is_met = low <= t + ending.error && t - ending.error <= high;
+            if !is_met || low < self.start[lane] || high > self.end[lane] {
+                continue;
+            }
+            let (a, b) = (value(low), value(high));
+            let changes = b == 0.0 || (a < 0.0) != (b < 0.0);
+            if a != 0.0 && changes && a.is_finite() && b.is_finite() {
+                let t = place_in_cell((low, a), (high, b));
                 let error = grid.max(finest(self.size[lane], t));
                 return Ending { t, error, ..ending };
             }

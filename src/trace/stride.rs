@@ -31,7 +31,7 @@ const AWAY: f64 = 1.0;
 const MAX_NARROWINGS: i64 = 200;
 
 /// After so many evaluations lanes that lag behind are walked one by one, however many go on.
-const LONG: u32 = 256;
+const ROUNDS: u32 = 256;
 
 /// Walks the lanes of a packet until each has found something or has come to the end of its stretch, or until few are left.
 pub(super) struct Stride<'a> {
@@ -69,7 +69,7 @@ impl Task for Stride<'_> {
             if going <= few {
                 return;
             }
-            if going <= STRAGGLERS || round.is_multiple_of(LONG) {
+            if going <= STRAGGLERS || round.is_multiple_of(ROUNDS) {
                 for lane in 0..WIDTH {
                     if packet.lags(lane, rules) {
                         fan(packet, lane, value, rules);

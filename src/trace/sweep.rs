@@ -406,8 +406,8 @@ impl World {
                 let [packet, mixed] = pair(&mut scratch.packets, k);
                 mixed.adopt(homes.len(), packet, from);
                 homes.push((k, from));
-                if homes.len() == WIDTH {
-                    self.advance(visit, stage, mixed, LAGGARDS);
+                while homes.len() == WIDTH {
+                    self.advance(visit, stage, &mut scratch.packets[MIXED], LAGGARDS);
                     is_hit |= self.disband(visit, &mut homes, scratch);
                 }
             }
@@ -512,6 +512,8 @@ impl World {
         let packet = &mut packets[k];
         packet.found(&visit.rules, marched, found);
         let mut is_hit = false;
+        // Hits behind the stage of lanes that went on alone, where its field may lack something.
+        let mut beyond = Vec::new();
         for Found { lane, ending } in found.drain(..) {
             let ray = packet.ray[lane] as usize;
             bundle.steps[ray] += packet.steps[lane] as u32;
@@ -525,12 +527,19 @@ impl World {
                     };
                     if ending.t <= bundle.t_max[ray] && bundle.offer(ray, crossing, number, any) {
                         is_hit = true;
-                        fresh.push(ray as u32);
+                        let is_beyond = ending.t > packet.limit[lane];
+                        let list = if is_beyond { &mut beyond } else { &mut *fresh };
+                        list.push(ray as u32);
                     }
                 }
                 Verdict::Miss => {}
                 Verdict::Unknown => bundle.doubt(ray, ending.t),
             }
+        }
+        if !beyond.is_empty() {
+            let within = std::mem::replace(&mut scratch.fresh, beyond);
+            self.incline(visit, None, scratch);
+            scratch.fresh = within;
         }
         is_hit
     }

@@ -761,7 +761,7 @@ fn quadrilaterals_are_hit_where_their_triangles_are() {
         let [a, b, c, d] = corners.map(|corner| corner.to_array());
         let quad = leaf(AnyPrimitive::Quad(Quad::new(a, b, c, d)));
         let world = world(&quad, Method::Auto);
-        assert_eq!(world.parts(), 2);
+        assert_eq!(world.parts(), 1);
         let halves = [
             [corners[0], corners[1], corners[2]],
             [corners[0], corners[2], corners[3]],
@@ -791,6 +791,12 @@ fn quadrilaterals_are_hit_where_their_triangles_are() {
             if out.verdict == Verdict::Hit {
                 let field = value(&quad, ray.origin + out.t * ray.direction);
                 assert!(field.abs() < 1e-12, "{seed} {i}: {field}");
+                // It has no front: its normal is that of one of its halves, against the ray.
+                assert_eq!(out.evaluations, 0);
+                assert!(out.normal.dot(ray.direction) <= 0.0, "{seed} {i}: {out:?}");
+                let normals = halves.map(|[a, b, c]| (b - a).cross(c - a).normalize());
+                let is_one = |n: &DVec3| n.cross(out.normal).length() < 1e-12;
+                assert!(normals.iter().any(is_one), "{seed} {i}: {out:?}");
             }
         }
     }

@@ -169,16 +169,15 @@ impl Runs {
     pub fn parity<N: Number>(&self, x: N, y: N) -> N {
         let zero = N::splat(0.0);
         let mut sign = N::splat(1.0);
+        if !N::LEAVES_OUT || self.runs.len() == 1 {
+            return crossings(&self.edges, x, y, sign);
+        }
         for run in &self.runs {
-            if !N::LEAVES_OUT || self.runs.len() == 1 {
-                sign = self.crossings(run, x, y, sign);
-                continue;
-            }
             let [u, v] = run.beyond(x, y);
             let outside = u.max(v);
             let as_one = run.crossing(x, y, sign);
             if outside.may_be_below(zero) {
-                let crossed = self.crossings(run, x, y, sign);
+                let crossed = crossings(&self.edges[run.first..run.end], x, y, sign);
                 sign = N::select_lt(outside, zero, crossed, as_one);
             } else {
                 sign = as_one;
@@ -186,16 +185,16 @@ impl Runs {
         }
         sign
     }
+}
 
-    /// As [`Edge::crossing`], of all edges of a run.
-    #[inline(always)]
-    fn crossings<N: Number>(&self, run: &Run, x: N, y: N, sign: N) -> N {
-        let mut sign = sign;
-        for edge in &self.edges[run.first..run.end] {
-            sign = edge.crossing(x, y, sign);
-        }
-        sign
+/// As [`Edge::crossing`], of all these edges.
+#[inline(always)]
+fn crossings<N: Number>(edges: &[Edge], x: N, y: N, sign: N) -> N {
+    let mut sign = sign;
+    for edge in edges {
+        sign = edge.crossing(x, y, sign);
     }
+    sign
 }
 
 #[cfg(test)]

@@ -153,7 +153,10 @@ macro_rules! builders {
             $(#[$feature])*
             fn warped<N: Number, const GRAPHS: bool>(node: &Node) -> Closure<N> {
                 let is_formula = matches!(node.shape(), Shape::Field(_) | Shape::Displacement(_));
-                if let Some(graph) = node.graph().filter(|_| GRAPHS && (is_formula || !is_whole::<N>())) {
+                if GRAPHS
+                    && (is_formula || !is_whole::<N>())
+                    && let Some(graph) = node.graph()
+                {
                     return recorded(graph);
                 }
                 let compiled = match node.shape() {

@@ -3,7 +3,7 @@
 /// Which way rays find surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
-    /// Spheres, ellipsoids, planes, boxes, cylinders, capsules, tori, triangles and hard combinations of the convex ones in closed
+    /// Spheres, ellipsoids, planes, boxes, cylinders, capsules, tori, triangles, quadrilaterals and hard combinations of the convex ones in closed
     /// form, other convex shapes by tangents, the rest by certified sphere tracing in lanes, through combinations that are thinned
     /// out.
     Auto,

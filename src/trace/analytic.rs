@@ -28,8 +28,9 @@ pub trait ClosedForm {
         true
     }
 
-    /// The outward unit normal at a point of the surface; for a triangle that of its front.
-    fn normal(&self, p: DVec3) -> DVec3;
+    /// The outward unit normal at a point of the surface; for a triangle that of its front, for a sheet without a front that
+    /// against the direction of the ray.
+    fn normal(&self, p: DVec3, direction: DVec3) -> DVec3;
 
     /// The first crossing in front of the ray's origin.
     fn enter(&self, ray: &Ray) -> Option<Crossing> {
@@ -82,6 +83,12 @@ impl Ball {
         chord_error(self.radius, half_chord, 8.0 * U * size)
     }
 
+    /// The outward unit normal at a point of the surface.
+    #[inline(always)]
+    pub(super) fn outward(&self, p: DVec3) -> DVec3 {
+        (p - self.centre).normalize()
+    }
+
     /// Both crossings in order, where the line meets the sphere.
     fn crossings(&self, ray: &Ray) -> Option<(f64, f64)> {
         let (near, far, half_chord) = self.roots(ray.origin, ray.direction);
@@ -91,8 +98,8 @@ impl Ball {
 
 impl ClosedForm for Ball {
     #[inline(always)]
-    fn normal(&self, p: DVec3) -> DVec3 {
-        (p - self.centre).normalize()
+    fn normal(&self, p: DVec3, _: DVec3) -> DVec3 {
+        self.outward(p)
     }
 
     /// The geometric form with a discriminant that does not cancel: h = r^2 - |q - (q.d) d|^2 with q the vector from
@@ -202,7 +209,7 @@ impl HalfSpace {
 
 impl ClosedForm for HalfSpace {
     #[inline(always)]
-    fn normal(&self, _: DVec3) -> DVec3 {
+    fn normal(&self, _: DVec3, _: DVec3) -> DVec3 {
         self.normal
     }
 
@@ -238,7 +245,7 @@ impl Block {
 impl ClosedForm for Block {
     /// That of the face that the point lies on; of several, the first.
     #[inline(always)]
-    fn normal(&self, p: DVec3) -> DVec3 {
+    fn normal(&self, p: DVec3, _: DVec3) -> DVec3 {
         face(p - self.centre, self.half)
     }
 
@@ -307,6 +314,12 @@ impl Facet {
     pub fn bounds(&self) -> Bounds {
         Bounds::around(self.corners.map(|c| c.to_array()))
     }
+
+    /// How far a point lies before its plane.
+    #[inline(always)]
+    fn height(&self, p: DVec3) -> f64 {
+        (p - self.corners[0]).dot(self.normal)
+    }
 }
 
 impl ClosedForm for Facet {
@@ -316,7 +329,7 @@ impl ClosedForm for Facet {
     }
 
     #[inline(always)]
-    fn normal(&self, _: DVec3) -> DVec3 {
+    fn normal(&self, _: DVec3, _: DVec3) -> DVec3 {
         self.normal
     }
 
@@ -341,6 +354,55 @@ impl ClosedForm for Facet {
         // A ray along the plane is told of no more than the others.
         let is_inside = is_inside & self.may_meet(origin, direction);
         (if is_inside { t } else { f64::INFINITY }, error)
+    }
+}
+
+/// A sheet with four corners, made of two triangles. It has no front.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pane {
+    /// Its triangles.
+    pub halves: [Facet; 2],
+}
+
+impl Pane {
+    /// The box around it.
+    pub fn bounds(&self) -> Bounds {
+        let [first, second] = self.halves;
+        first.bounds().hull(second.bounds())
+    }
+}
+
+impl ClosedForm for Pane {
+    #[inline(always)]
+    fn may_meet(&self, origin: DVec3, direction: DVec3) -> bool {
+        let [first, second] = self.halves;
+        first.may_meet(origin, direction) | second.may_meet(origin, direction)
+    }
+
+    /// Of the half in whose plane the point lies.
+    #[inline(always)]
+    fn normal(&self, p: DVec3, direction: DVec3) -> DVec3 {
+        let [first, second] = self.halves;
+        let is_first = first.height(p).abs() <= second.height(p).abs();
+        let front = if is_first {
+            first.normal
+        } else {
+            second.normal
+        };
+        let is_behind = front.dot(direction) > 0.0;
+        if is_behind { -front } else { front }
+    }
+
+    #[inline(always)]
+    fn crossing(&self, origin: DVec3, direction: DVec3) -> (f64, f64) {
+        let [first, second] = self.halves;
+        let (t, error) = first.crossing(origin, direction);
+        let (other_t, other_error) = second.crossing(origin, direction);
+        let is_first = t <= other_t;
+        (
+            if is_first { t } else { other_t },
+            if is_first { error } else { other_error },
+        )
     }
 }
 
@@ -458,7 +520,7 @@ mod tests {
         let diagonal = t([-1.0, -1.0, 0.0], [1.0, 1.0, 0.0]);
         assert!((diagonal.unwrap() - 2f64.sqrt()).abs() < 1e-15);
         for (p, n) in [([0.0, 1.0, 1.0], DVec3::NEG_X), ([1.0, 2.0, 1.0], DVec3::Y)] {
-            assert_eq!(block.normal(DVec3::from_array(p)), n);
+            assert_eq!(block.normal(DVec3::from_array(p), DVec3::X), n);
         }
     }
 

@@ -373,7 +373,7 @@ impl<F: ClosedForm> Task for Normals<'_, F> {
         let b = self.bundle;
         let number = u64::from(self.number);
         for i in 0..b.lanes() {
-            let normal = self.form.normal(place(&b.point, i));
+            let normal = self.form.normal(place(&b.point, i), place(&b.direction, i));
             let is_here = (b.meets[i] != 0) & (b.part[i] == number);
             for axis in 0..3 {
                 let before = b.gradient[axis][i];

@@ -1,6 +1,6 @@
 //! Convex solids whose stretch on a ray is known in closed form.
 
-use super::analytic::{Ball, ClosedForm, HalfSpace, U, chord_ends, chord_error, face};
+use super::analytic::{Ball, HalfSpace, U, chord_ends, chord_error, face};
 use super::vector::{select, unit_or};
 use crate::catalogue::{AnyPrimitive, Similarity};
 use glam::DVec3;
@@ -133,7 +133,7 @@ impl Solid for Ball {
 
     #[inline(always)]
     fn normal(&self, p: DVec3) -> DVec3 {
-        ClosedForm::normal(self, p)
+        self.outward(p)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Floor 4: rays to hits, by the batch.
 //!
-//! A [`World`] is a list of parts. Spheres, ellipsoids, planes, boxes, bars, tori and triangles of hard unions, and hard combinations of
+//! A [`World`] is a list of parts. Spheres, ellipsoids, planes, boxes, bars, tori, triangles and quadrilaterals of hard unions, and hard combinations of
 //! convex ones of them, are met in closed form; what is left is marched, each part inside its bounds. The default method takes bundles of rays (`sweep`) through stages of thinned
 //! combinations (`stages`) in packets of lanes (`stride`, `newton`); the others are small machines, one for each ray
 //! (`method`). What a ray finds depends neither on the rays it is traced with nor on the number of threads.

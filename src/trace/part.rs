@@ -1,12 +1,12 @@
 //! The parts of a world: what a hard union at the root falls apart into.
 
-use super::analytic::{Ball, Block, Facet, HalfSpace};
+use super::analytic::{Ball, Block, Facet, HalfSpace, Pane};
 use super::cut::Cut;
 use super::evidence::Evidence;
 use super::method::{Demands, Reach};
 use super::ring::Ring;
 use crate::catalogue::Modifier;
-use crate::catalogue::{AnyPrimitive, Bounds, Combination, Operation, with_modifier};
+use crate::catalogue::{AnyPrimitive, Bounds, Combination, Operation, Triangle, with_modifier};
 use crate::field::{
     Closure, Level, Thicket, Walked, compile, compile_convex, compile_graph, compile_wide,
 };
@@ -25,6 +25,8 @@ pub enum PartKind {
     Block(Block),
     /// A triangle, in closed form.
     Facet(Facet),
+    /// A quadrilateral, in closed form.
+    Pane(Box<Pane>),
     /// A torus, in closed form.
     Ring(Box<Ring>, Spare),
     /// Anything else, by its field.
@@ -53,6 +55,7 @@ impl PartKind {
             Self::HalfSpace(_) => "analytic plane",
             Self::Block(_) => "analytic box",
             Self::Facet(_) => "analytic triangle",
+            Self::Pane(_) => "analytic quadrilateral",
             Self::Ring(..) => "analytic torus",
             Self::Marched(m) if m.cut.is_some() => "analytic chords",
             Self::Marched(m) if m.slope.is_some() => "convex: by slope",
@@ -182,6 +185,7 @@ impl Part {
             PartKind::HalfSpace(_) => Bounds::EVERYWHERE,
             PartKind::Block(block) => widened(block.bounds()),
             PartKind::Facet(facet) => facet.bounds(),
+            PartKind::Pane(pane) => pane.bounds(),
             PartKind::Ring(..) => widened(node.bounds()),
             PartKind::Marched(marched) => marched.region,
         };
@@ -354,8 +358,7 @@ fn widened(bounds: Bounds) -> Bounds {
     bounds.inflate(size * 1e-9)
 }
 
-/// The parts that the hard union at the root of `node` falls apart into, each with its paint and transforms; a
-/// quadrilateral falls apart into its triangles.
+/// The parts that the hard union at the root of `node` falls apart into, each with its paint and transforms.
 pub fn flatten(node: &Arc<Node>) -> Vec<Arc<Node>> {
     let inherit = |child: Arc<Node>| {
         let child = match node.paint() {
@@ -372,16 +375,6 @@ pub fn flatten(node: &Arc<Node>) -> Vec<Arc<Node>> {
             },
             children,
         ) if blend.is_hard() => children.iter().flat_map(flatten).map(inherit).collect(),
-        Shape::Primitive(AnyPrimitive::Quad(quad)) => {
-            let halves = quad
-                .halves()
-                .map(AnyPrimitive::Triangle)
-                .map(Node::primitive);
-            match halves.into_iter().collect::<Result<Vec<_>, _>>() {
-                Ok(halves) => halves.into_iter().map(inherit).collect(),
-                Err(_) => vec![node.clone()],
-            }
-        }
         Shape::Field(field) if field.claimed.is_none() => match field.graph.parts() {
             Parts::Least(parts) => match of_field(field, parts) {
                 Some(parts) => parts.into_iter().map(inherit).collect(),
@@ -420,13 +413,14 @@ fn of_field(field: &FieldShape, parts: &[Graph]) -> Option<Vec<Arc<Node>>> {
     parts.iter().map(part).collect()
 }
 
-/// The closed form of a shape that is a sphere, plane, box, torus or triangle under transforms that keep angles.
+/// The closed form of a shape that is a sphere, plane, box, torus, triangle or quadrilateral under transforms that keep angles.
 fn entry(node: &Node) -> Option<PartKind> {
     let (map, inner) = node.unplaced();
     let Shape::Primitive(primitive) = inner.shape() else {
         return None;
     };
     let outside = |p: [f64; 3]| DVec3::from_array(map.outside(p));
+    let facet = |t: &Triangle| Facet::new([t.a, t.b, t.c].map(outside));
     match primitive {
         AnyPrimitive::Sphere(s) => Some(PartKind::Ball(Ball::placed(s, &map))),
         AnyPrimitive::Plane(p) => Some(PartKind::HalfSpace(HalfSpace::placed(p, &map))),
@@ -440,11 +434,11 @@ fn entry(node: &Node) -> Option<PartKind> {
             let ring = Box::new(Ring::placed(t, &map)?);
             Some(PartKind::Ring(ring, Spare::default()))
         }
-        AnyPrimitive::Triangle(t) => Some(PartKind::Facet(Facet::new([
-            outside(t.a),
-            outside(t.b),
-            outside(t.c),
-        ]))),
+        AnyPrimitive::Triangle(t) => Some(PartKind::Facet(facet(t))),
+        AnyPrimitive::Quad(q) => {
+            let halves = q.halves().each_ref().map(facet);
+            Some(PartKind::Pane(Box::new(Pane { halves })))
+        }
         _ => None,
     }
 }

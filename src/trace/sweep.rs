@@ -229,6 +229,7 @@ impl World {
             PartKind::HalfSpace(form) => self.enter(form, number, any, bundle),
             PartKind::Block(form) => self.enter(form, number, any, bundle),
             PartKind::Facet(form) => self.enter(form, number, any, bundle),
+            PartKind::Pane(form) => self.enter(&**form, number, any, bundle),
             PartKind::Ring(ring, spare) => self.ring(ring, spare, number, beam, any, scratch),
             PartKind::Marched(marched) => {
                 bundle.clip(&marched.region, self.level);

@@ -409,6 +409,7 @@ impl World {
                 PartKind::HalfSpace(plane) => bundle.turn(plane, number, self.level),
                 PartKind::Block(block) => bundle.turn(block, number, self.level),
                 PartKind::Facet(facet) => bundle.turn(facet, number, self.level),
+                PartKind::Pane(pane) => bundle.turn(&**pane, number, self.level),
                 // Their normals are found with the hits.
                 PartKind::Ring(..) | PartKind::Marched(_) => {}
             }
@@ -444,10 +445,11 @@ impl World {
                 let back = hit.error.max(pixel);
                 normal(marched.gradient(), hit.point, ray.direction, back)
             }
-            PartKind::Ball(ball) => ball.normal(hit.point),
+            PartKind::Ball(ball) => ball.outward(hit.point),
             PartKind::HalfSpace(plane) => plane.normal,
-            PartKind::Block(block) => block.normal(hit.point),
+            PartKind::Block(block) => block.normal(hit.point, ray.direction),
             PartKind::Facet(facet) => facet.normal,
+            PartKind::Pane(pane) => pane.normal(hit.point, ray.direction),
             PartKind::Ring(ring, _) => ring.normal(hit.point),
         }
     }

@@ -1,6 +1,6 @@
 //! The quadrilateral.
 
-use crate::catalogue::space_geometry::{cross, dot, minus, normal_of, triangle_distance};
+use crate::catalogue::space_geometry::{cross, dot, minus};
 use crate::catalogue::{Bounds, Primitive, Range, Traits, Triangle, declaration::entry};
 use crate::num::{Number, Vec3};
 
@@ -17,31 +17,24 @@ entry! {
         d: [f64; 3], Vector3, Range::ANY, default [-0.8, 0.0, -0.6];
     }
     derived {
-        normals: [[f64; 3]; 2] = [normal_of([a, b, c]), normal_of([a, c, d])];
+        halves: [Triangle; 2] = [Triangle::new(a, b, c), Triangle::new(a, c, d)];
     }
     source "the nearer of two triangles (Quilez, distance functions: triangle, quad); a distance, so its constant is 1"
     example "quad([-0.8, -0.3, 0.6], [0.8, -0.3, 0.6], [0.8, 0.3, -0.6], [-0.8, 0.3, -0.6])"
 }
 
 impl Quad {
-    /// The two triangles that it is made of, with their fronts on its front.
-    pub fn halves(&self) -> [Triangle; 2] {
-        [
-            Triangle::new(self.a, self.b, self.c),
-            Triangle::new(self.a, self.c, self.d),
-        ]
+    /// The two triangles that it is made of.
+    pub fn halves(&self) -> &[Triangle; 2] {
+        &self.halves
     }
 }
 
 impl Primitive for Quad {
     #[inline(always)]
     fn distance<N: Number>(&self, p: &Vec3<N>) -> N {
-        let first = triangle_distance(p, [self.a, self.b, self.c], self.normals[0]);
-        first.min(triangle_distance(
-            p,
-            [self.a, self.c, self.d],
-            self.normals[1],
-        ))
+        let [first, second] = &self.halves;
+        first.distance(p).min(second.distance(p))
     }
 
     fn sublevel(&self, level: f64) -> Bounds {
@@ -50,7 +43,7 @@ impl Primitive for Quad {
 
     fn traits(&self) -> Traits {
         let corners = [self.a, self.b, self.c, self.d];
-        let normal = self.normals[0];
+        let [normal, other] = self.halves.each_ref().map(Triangle::unit_normal);
         let is_flat = corners
             .iter()
             .all(|p| dot(normal, minus(*p, self.a)) == 0.0);
@@ -59,20 +52,21 @@ impl Primitive for Quad {
             dot(normal, cross(minus(q, p), minus(r, q))) >= 0.0
         };
         Traits {
-            is_convex: is_flat && self.normals[1] == normal && (0..4).all(turns_left),
+            is_convex: is_flat && other == normal && (0..4).all(turns_left),
             is_sheet: true,
             ..Traits::EXACT
         }
     }
 
     fn check(&self) -> Result<(), (&'static str, String)> {
-        if self.normals[0] == [0.0; 3] {
+        let [first, second] = self.halves.each_ref().map(Triangle::unit_normal);
+        if first == [0.0; 3] {
             return Err((
                 "b",
                 "must not lie on the line through `a` and `c`: that half has no area".into(),
             ));
         }
-        if self.normals[1] == [0.0; 3] {
+        if second == [0.0; 3] {
             return Err((
                 "d",
                 "must not lie on the line through `a` and `c`: that half has no area".into(),

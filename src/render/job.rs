@@ -79,7 +79,7 @@ pub(super) fn on_threads<T: Sync, R: Send>(
         .build();
     match pool {
         Ok(pool) => {
-            let results = pool.install(|| items.par_iter().map(&work).collect());
+            let results = pool.install(|| items.par_iter().with_max_len(1).map(&work).collect());
             (results, pool.current_num_threads())
         }
         // Where the system grants no threads, this one does the work.

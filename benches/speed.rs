@@ -97,9 +97,9 @@ fn rays(scene: &Scene) -> Vec<Rays> {
     let [width, height] = scene.settings.size;
     let view = View::new(&scene.camera, scene.settings.size);
     let square = |x: u32, y: u32| {
-        let row = move |j: u32| (x..(x + SIDE).min(width)).map(move |i| [i, j].map(f64::from));
-        let places: Vec<[f64; 2]> = (y..(y + SIDE).min(height)).flat_map(row).collect();
-        view.rays(&places)
+        let row = move |j: u32| (x..(x + SIDE).min(width)).map(move |i| [i, j]);
+        let pixels: Vec<[u32; 2]> = (y..(y + SIDE).min(height)).flat_map(row).collect();
+        view.rays(&pixels)
     };
     let starts = |end: u32| (0..end).step_by(SIDE as usize);
     starts(height)

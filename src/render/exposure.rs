@@ -140,7 +140,7 @@ impl Exposure {
         for (k, sum) in self.sums.iter().enumerate() {
             match sum {
                 Sum::Beauty(sums) | Sum::Color(sums) => {
-                    let [r, g, b] = sums.columns();
+                    let [r, g, b] = sums.columns().map(|column| &column[..pixels.len()]);
                     patch.record(k, pixels, |i| [mean(r[i]), mean(g[i]), mean(b[i])]);
                 }
                 Sum::Depth(depths) => patch.record(k, pixels, |i| [depths[i] as f32]),

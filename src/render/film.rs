@@ -127,8 +127,8 @@ impl Patch<'_> {
         let [left, top] = self.corner;
         let rows = &mut self.planes[k];
         for (i, [column, row]) in pixels.iter().enumerate() {
-            let row = rows[(row - top) as usize].as_chunks_mut::<N>().0;
-            row[(column - left) as usize] = numbers(i);
+            let first = N * (column - left) as usize;
+            rows[(row - top) as usize][first..first + N].copy_from_slice(&numbers(i));
         }
     }
 }

@@ -28,11 +28,9 @@ impl Hits {
         let whitted = Whitted::new(scene, world);
         let tiles = Tile::all(settings.size, RenderOptions::default().tile);
         let trace = |tile: &Tile| {
-            let middle = |pixel: &[u32; 2]| pixel.map(f64::from);
             let mut hits = Self::default();
             for block in tile.blocks() {
-                let places: Vec<[f64; 2]> = block.iter().map(middle).collect();
-                let rays = view.rays(&places);
+                let rays = view.rays(&block);
                 let outcomes = whitted.first_hits(&rays, &mut hits.census);
                 hits.outcomes.extend(outcomes.iter());
                 hits.rays.extend(rays.iter());

@@ -6,6 +6,7 @@ const STEP: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 
 /// The place of a sample in its pixel, from the middle: each in [-1/2, 1/2). One sample is in the middle; more follow the
 /// R2 sequence, shifted by a hash of the pixel.
+#[inline(always)]
 pub fn place(pixel: [u32; 2], sample: u32, samples: u32, seed: u64) -> [f64; 2] {
     if samples <= 1 {
         return [0.0, 0.0];
@@ -17,11 +18,13 @@ pub fn place(pixel: [u32; 2], sample: u32, samples: u32, seed: u64) -> [f64; 2] 
 }
 
 /// A number in [0, 1) from the high bits of a hash.
+#[inline(always)]
 fn unit(bits: u64) -> f64 {
     (bits >> 11) as f64 / (1u64 << 53) as f64
 }
 
 /// A hash in which every bit depends on every bit. Source: SplitMix64, Steele, Lea and Flood 2014.
+#[inline(always)]
 fn scrambled(x: u64) -> u64 {
     let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -101,12 +101,12 @@ const ORDER: [[u8; 2]; (BLOCK * BLOCK) as usize] = {
 /// The pixels of a block, those beyond `end` left out.
 fn block(corner: [u32; 2], end: [u32; 2]) -> Vec<[u32; 2]> {
     let [left, top] = corner;
-    let pixels = ORDER.map(|[i, j]| [left + u32::from(i), top + u32::from(j)]);
-    if left + BLOCK <= end[0] && top + BLOCK <= end[1] {
-        return pixels.to_vec();
+    let pixel = |[i, j]: &[u8; 2]| [left + u32::from(*i), top + u32::from(*j)];
+    let mut pixels: Vec<[u32; 2]> = ORDER.iter().map(pixel).collect();
+    if left + BLOCK > end[0] || top + BLOCK > end[1] {
+        pixels.retain(|[i, j]| *i < end[0] && *j < end[1]);
     }
-    let is_within = |[i, j]: &[u32; 2]| *i < end[0] && *j < end[1];
-    pixels.into_iter().filter(is_within).collect()
+    pixels
 }
 
 thread_local! {
@@ -116,8 +116,6 @@ thread_local! {
 /// The rays of a sample of some pixels; memory that is used again for the next.
 #[derive(Default)]
 struct Desk {
-    /// Their columns and rows.
-    places: Vec<[f64; 2]>,
     rays: Rays,
     outcomes: Outcomes,
     light: Received,
@@ -127,16 +125,8 @@ impl Desk {
     /// Takes a sample of each of these pixels.
     fn aim<S: Surfaces + ?Sized>(&mut self, shared: &Shared<S>, pixels: &[[u32; 2]], sample: u32) {
         let Settings { samples, seed, .. } = *shared.settings;
-        self.places.clear();
-        let middles = pixels.iter().map(|pixel| pixel.map(f64::from));
-        self.places.extend(middles);
-        if samples > 1 {
-            for (place, pixel) in self.places.iter_mut().zip(pixels) {
-                let [dx, dy] = sampling::place(*pixel, sample, samples, seed);
-                *place = [place[0] + dx, place[1] + dy];
-            }
-        }
-        shared.view.aim(&self.places, &mut self.rays);
+        let aside = |pixel| sampling::place(pixel, sample, samples, seed);
+        shared.view.aim(pixels, aside, &mut self.rays);
     }
 
     /// Adds what is seen along the rays.

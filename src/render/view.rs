@@ -63,16 +63,16 @@ impl View {
         }
     }
 
-    /// The rays through these places, each a column and a row: as [`View::ray`], to the bit.
-    pub fn rays(&self, places: &[[f64; 2]]) -> Rays {
+    /// The rays through the middles of these pixels, each a column and a row: as [`View::ray`], to the bit.
+    pub fn rays(&self, pixels: &[[u32; 2]]) -> Rays {
         let mut rays = Rays::default();
-        self.aim(places, &mut rays);
+        self.aim(pixels, |_| [0.0; 2], &mut rays);
         rays
     }
 
-    /// As [`View::rays`]; what was in `rays` before is forgotten.
-    pub fn aim(&self, places: &[[f64; 2]], rays: &mut Rays) {
-        rays.resize(places.len());
+    /// As [`View::rays`], but so far `aside` of the middle of each pixel, in pixels; what was in `rays` before is forgotten.
+    pub fn aim(&self, pixels: &[[u32; 2]], aside: impl Fn([u32; 2]) -> [f64; 2], rays: &mut Rays) {
+        rays.resize(pixels.len());
         let Footprint { at_origin, spread } = self.footprint();
         let [.., ends, widths, spreads] = rays.columns_mut();
         ends.fill(f64::INFINITY);
@@ -80,7 +80,8 @@ impl View {
         spreads.fill(spread);
         let lines = Lines {
             view: self,
-            places,
+            pixels,
+            aside,
             rays,
         };
         run_at(self.level, lines);
@@ -110,24 +111,27 @@ impl View {
 }
 
 /// Finds where rays start and go.
-struct Lines<'a> {
+struct Lines<'a, F> {
     view: &'a View,
     /// Through which columns and rows.
-    places: &'a [[f64; 2]],
+    pixels: &'a [[u32; 2]],
+    /// And how far aside of their middles.
+    aside: F,
     rays: &'a mut Rays,
 }
 
-impl Task for Lines<'_> {
+impl<F: Fn([u32; 2]) -> [f64; 2]> Task for Lines<'_, F> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        let n = self.places.len();
+        let n = self.pixels.len();
         let [ox, oy, oz, dx, dy, dz, ..] = self.rays.columns_mut();
         let (ox, oy, oz) = (&mut ox[..n], &mut oy[..n], &mut oz[..n]);
         let (dx, dy, dz) = (&mut dx[..n], &mut dy[..n], &mut dz[..n]);
-        for (i, [column, row]) in self.places.iter().enumerate() {
-            let [x, y] = self.view.screen(*column, *row);
+        for (i, pixel) in self.pixels.iter().enumerate() {
+            let (middle, aside) = (pixel.map(f64::from), (self.aside)(*pixel));
+            let [x, y] = self.view.screen(middle[0] + aside[0], middle[1] + aside[1]);
             let (origin, direction) = self.view.line(x, y);
             (ox[i], oy[i], oz[i]) = (origin.x, origin.y, origin.z);
             (dx[i], dy[i], dz[i]) = (direction.x, direction.y, direction.z);

@@ -17,15 +17,18 @@ pub type Group = [f64; GROUP];
 /// them.
 #[inline(always)]
 pub fn groups<const N: usize>(columns: [&[f64]; N], first: usize) -> [Group; N] {
-    let mut groups = [[0.0; GROUP]; N];
-    for k in 0..N {
-        let column = &columns[k][first.min(columns[k].len())..];
-        match column.first_chunk() {
-            Some(whole) => groups[k] = *whole,
-            None => groups[k][..column.len()].copy_from_slice(column),
-        }
-    }
-    groups
+    columns.map(|column| {
+        let column = &column[first.min(column.len())..];
+        column.first_chunk().copied().unwrap_or_else(|| last(column))
+    })
+}
+
+/// The group at the end of a column: rare.
+#[cold]
+fn last(column: &[f64]) -> Group {
+    let mut group = [0.0; GROUP];
+    group[..column.len()].copy_from_slice(column);
+    group
 }
 
 /// Highlights below `exp` of this are 0: 2^-53, what rounding would take from a full one anyway.

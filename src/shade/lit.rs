@@ -16,10 +16,9 @@ pub const CHUNK: usize = 256;
 type Column = [f64; CHUNK];
 
 /// Up to [`CHUNK`] hits as their viewer sees them, and what one lamp sends them. What was not hit is there too, with numbers
-/// that mean nothing.
+/// that mean nothing. Every column begins with a cache line.
+#[repr(C, align(64))]
 pub struct Lit {
-    /// Which of a wave's rays they are.
-    pub numbers: Range<usize>,
     /// The unit normals on the side from which the rays came.
     normal: [Column; 3],
     /// Where rays start that leave on that side.
@@ -41,6 +40,8 @@ pub struct Lit {
     /// How wide pixels are at the hits, and by how much they grow.
     width: Column,
     spread: Column,
+    /// Which of a wave's rays they are.
+    pub numbers: Range<usize>,
 }
 
 impl Lit {

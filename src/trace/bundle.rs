@@ -23,10 +23,9 @@ pub(super) const WIDTH: usize = F64x32::WIDTH;
 /// A number for each ray.
 pub(super) type Column = [f64; CAPACITY];
 
-/// Rays and what they found.
+/// Rays and what they found. Every column begins with a cache line.
+#[repr(C, align(64))]
 pub(super) struct Bundle {
-    /// How many rays there are.
-    pub count: usize,
     /// Their origins, by axis.
     pub origin: [Column; 3],
     /// Their directions.
@@ -61,6 +60,8 @@ pub(super) struct Bundle {
     pub leave: Column,
     /// Whether they meet it, or what else was asked last.
     pub meets: [u8; CAPACITY],
+    /// How many rays there are.
+    pub count: usize,
     /// Whether the reciprocals of the directions are there.
     is_inverted: bool,
     /// Whether gradients, doubts and counts are not those of rays that have found nothing.

@@ -80,8 +80,9 @@ const GRID: f64 = 1.0 / (1u64 << 22) as f64;
 /// The smallest distance at which a footprint counts for the grid, in sizes of the scene.
 const NEAR: f64 = 1.0 / 1024.0;
 
-/// 32 rays on their way through one field; by default none.
+/// 32 rays on their way through one field; by default none. Every column begins with a cache line.
 #[derive(Default)]
+#[repr(C, align(64))]
 pub(super) struct Packet {
     pub(super) origin: [Lane; 3],
     pub(super) direction: [Lane; 3],

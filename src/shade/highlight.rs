@@ -19,7 +19,10 @@ pub type Group = [f64; GROUP];
 pub fn groups<const N: usize>(columns: [&[f64]; N], first: usize) -> [Group; N] {
     columns.map(|column| {
         let column = &column[first.min(column.len())..];
-        column.first_chunk().copied().unwrap_or_else(|| last(column))
+        column
+            .first_chunk()
+            .copied()
+            .unwrap_or_else(|| last(column))
     })
 }
 

@@ -7,10 +7,13 @@
 use super::attenuation::absorbed;
 use super::census::sum;
 use super::gains::Gains;
+use super::highlight::GROUP;
 use super::looks::Looks;
 use super::medium::{Medium, Surroundings};
 use super::palette::Palette;
 use super::{Census, Features, Surface, Surfaces, offset};
+use crate::field::{Level, Task, run_at};
+use crate::num::Columns;
 use crate::trace::{Outcome, Outcomes, Ray, Rays, Verdict, Visibility, count};
 use glam::DVec3;
 
@@ -39,19 +42,23 @@ pub fn settle<S: Surfaces + ?Sized>(
     seen: (&S, &Palette),
     features: &Features,
     gains: &mut Gains,
-    census: &mut Census,
+    (census, level): (&mut Census, Level),
 ) -> Vec<u32> {
     if features.tinted_shadows {
         walk_all(seen, gains, census)
     } else if features.opaque_shadows {
-        stop(seen.0, gains, census)
+        stop(seen.0, gains, (census, level))
     } else {
         Vec::new()
     }
 }
 
 /// Blocks the rays that meet an opaque surface.
-fn stop<S: Surfaces + ?Sized>(surfaces: &S, gains: &mut Gains, census: &mut Census) -> Vec<u32> {
+fn stop<S: Surfaces + ?Sized>(
+    surfaces: &S,
+    gains: &mut Gains,
+    (census, level): (&mut Census, Level),
+) -> Vec<u32> {
     census.shadow += gains.rays.len() as u64;
     let Gains {
         rays,
@@ -61,14 +68,9 @@ fn stop<S: Surfaces + ?Sized>(surfaces: &S, gains: &mut Gains, census: &mut Cens
     } = gains;
     census.timed(|t| &mut t.shadow, || surfaces.occluded(rays, occlusions));
     census.evaluations += sum(&occlusions.evaluations);
-    for channel in radiance.columns_mut() {
-        for (gained, verdict) in channel.iter_mut().zip(&occlusions.verdict) {
-            *gained = if *verdict == Verdict::Hit {
-                0.0
-            } else {
-                *gained
-            };
-        }
+    let verdicts = &occlusions.verdict[..];
+    if count(verdicts, Verdict::Hit) > 0 {
+        run_at(level, Darken { radiance, verdicts });
     }
     if count(&occlusions.verdict, Verdict::Unknown) == 0 {
         return Vec::new();
@@ -78,6 +80,34 @@ fn stop<S: Surfaces + ?Sized>(surfaces: &S, gains: &mut Gains, census: &mut Cens
     let unknown: Vec<u32> = unknown.map(|(i, _)| i).collect();
     census.unknown_secondary += unknown.len() as u64;
     unknown
+}
+
+/// Takes what is gained along rays that meet something.
+struct Darken<'a> {
+    radiance: &'a mut Columns<3>,
+    verdicts: &'a [Verdict],
+}
+
+impl Task for Darken<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let [r, g, b] = self.radiance.columns_mut();
+        let channels = r.chunks_mut(GROUP).zip(g.chunks_mut(GROUP));
+        let channels = channels.zip(b.chunks_mut(GROUP));
+        let mut is_dark = [0u64; GROUP];
+        for (((r, g), b), verdicts) in channels.zip(self.verdicts.chunks(GROUP)) {
+            for (is_dark, verdict) in is_dark.iter_mut().zip(verdicts) {
+                *is_dark = u64::from(*verdict == Verdict::Hit);
+            }
+            for channel in [r, g, b] {
+                for (gained, is_dark) in channel.iter_mut().zip(&is_dark) {
+                    *gained = if *is_dark == 0 { *gained } else { 0.0 };
+                }
+            }
+        }
+    }
 }
 
 /// Weakens what comes through tinted surfaces.

@@ -63,20 +63,15 @@ impl Received {
         self.unknown.resize(rays, false);
     }
 
-    /// Adds light to these samples, one after the other.
-    fn add(&mut self, samples: &[u32], light: [&[f64]; 3]) {
-        let first = samples.first().map_or(0, |sample| *sample as usize);
-        let is_run = samples.iter().zip(first as u32..).all(|(a, b)| *a == b);
-        for (channel, light) in self.radiance.columns_mut().into_iter().zip(light) {
-            if is_run {
-                let channel = &mut channel[first..][..samples.len()];
-                channel.iter_mut().zip(light).for_each(|(sum, x)| *sum += x);
-            } else {
-                for (sample, x) in samples.iter().zip(light) {
-                    channel[*sample as usize] += x;
-                }
-            }
-        }
+    /// Adds light to these samples, one after the other, with the instructions of a level.
+    fn add(&mut self, samples: &[u32], light: [&[f64]; 3], level: Level) {
+        let sums = self.radiance.columns_mut();
+        let more = Brighten {
+            sums,
+            samples,
+            light,
+        };
+        run_at(level, more);
     }
 
     /// Marks the samples of the rays without an answer.
@@ -84,6 +79,35 @@ impl Received {
         if count(verdicts, Verdict::Unknown) > 0 {
             for (sample, verdict) in samples.iter().zip(verdicts) {
                 self.unknown[*sample as usize] |= *verdict == Verdict::Unknown;
+            }
+        }
+    }
+}
+
+/// Adds light to samples.
+struct Brighten<'a> {
+    sums: [&'a mut [f64]; 3],
+    samples: &'a [u32],
+    light: [&'a [f64]; 3],
+}
+
+impl Task for Brighten<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let samples = self.samples;
+        let first = samples.first().map_or(0, |sample| *sample);
+        let others = samples.iter().zip(first..).filter(|(a, b)| **a != *b);
+        let is_run = others.count() == 0;
+        for (sums, light) in self.sums.into_iter().zip(self.light) {
+            if is_run {
+                let sums = &mut sums[first as usize..][..samples.len()];
+                sums.iter_mut().zip(light).for_each(|(sum, x)| *sum += x);
+            } else {
+                for (sample, x) in samples.iter().zip(light) {
+                    sums[*sample as usize] += x;
+                }
             }
         }
     }
@@ -279,7 +303,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                 glow,
             },
         );
-        studio.light.add(&paths.sample, glow.columns());
+        studio.light.add(&paths.sample, glow.columns(), self.level);
         let wave = Meetings {
             rays,
             paths,
@@ -329,7 +353,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                 channel[i] = weight[k] * passed;
             }
         }
-        studio.light.add(&paths.sample, glow.columns());
+        studio.light.add(&paths.sample, glow.columns(), self.level);
     }
 
     /// Adds what the lamps send to a wave's hits. Lamp by lamp, so that shadow rays that are traced together go to one place.
@@ -379,10 +403,12 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         }
         for gains in gains {
             let seen = (self.surfaces, &self.palette);
-            for ray in settle(seen, &self.features, gains, studio.census) {
+            for ray in settle(seen, &self.features, gains, (studio.census, self.level)) {
                 studio.light.unknown[gains.samples[ray as usize] as usize] = true;
             }
-            studio.light.add(&gains.samples, gains.radiance.columns());
+            studio
+                .light
+                .add(&gains.samples, gains.radiance.columns(), self.level);
         }
     }
 }

@@ -5,9 +5,9 @@
     reason = "lanes run through many arrays side by side"
 )]
 
-use super::highlight::{GROUP, groups, highlights};
+use super::highlight::{GROUP, Group, groups, highlights};
 use super::lighting::{LIGHTING, Lighting};
-use super::lit::{CHUNK, Lit};
+use super::lit::{CHUNK, Lit, put};
 use super::medium::Surroundings;
 use super::phong::reflectance;
 use super::wave::Paths;
@@ -95,23 +95,32 @@ impl Task for Gain<'_> {
     fn run(self) {
         let lit = self.lit;
         let some = lit.numbers.clone();
-        let terms = self.terms.columns().map(|column| &column[some.clone()]);
-        let terms = Lighting::of(terms);
-        let weight = self.weight.columns().map(|column| &column[some.clone()]);
+        let Lighting {
+            color: [a, b, c],
+            diffuse,
+            specular,
+            shininess,
+            blinn,
+            ..
+        } = Lighting::of(self.terms.columns());
+        let [d, e, f] = self.weight.columns();
+        let columns = [a, b, c, d, e, f, diffuse, specular, shininess, blinn];
+        let columns = columns.map(|column| &column[some.clone()]);
+        let mut spare = [[0.0; GROUP]; 10];
         for first in (0..some.len()).step_by(GROUP) {
             let first = first.min(CHUNK - GROUP);
-            gain(lit, self.radiance, &terms, weight, first);
+            let terms = groups(columns, first, &mut spare);
+            gain(lit, self.radiance, terms, first);
         }
     }
 }
 
-/// Finds what a group of hits gains, from number `first` on.
+/// Finds what a group of hits gains, from number `first` on: of surfaces of these colours with these weights, shares of
+/// diffuse light, highlights, exponents of these, and shares of Blinn's.
 #[inline(always)]
-fn gain(lit: &mut Lit, radiance: DVec3, terms: &Lighting, weight: [&[f64]; 3], first: usize) {
-    let weight = groups(weight, first);
-    let color = groups(terms.color, first);
-    let shares = [terms.diffuse, terms.specular, terms.shininess, terms.blinn];
-    let [diffuse, specular, shininess, blinn] = &groups(shares, first);
+fn gain(lit: &mut Lit, radiance: DVec3, terms: [&Group; 10], first: usize) {
+    let [a, b, c, d, e, f, diffuse, specular, shininess, blinn] = terms;
+    let (color, weight) = ([a, b, c], [d, e, f]);
     let (mut phong, mut half) = ([0.0; GROUP], [0.0; GROUP]);
     for i in 0..GROUP {
         // What sends no highlight has a cosine without one.
@@ -120,6 +129,7 @@ fn gain(lit: &mut Lit, radiance: DVec3, terms: &Lighting, weight: [&[f64]; 3], f
         half[i] = if is_lit { lit.halfway[first + i] } else { 0.0 };
     }
     let highlight = highlights([&phong, &half], shininess, blinn);
+    let (mut gained, mut is_gained) = ([[0.0; GROUP]; 3], [0; GROUP]);
     for i in 0..GROUP {
         let (strength, light) = (lit.strength[first + i], lit.light[first + i]);
         let shine = specular[i] * highlight[i];
@@ -129,9 +139,11 @@ fn gain(lit: &mut Lit, radiance: DVec3, terms: &Lighting, weight: [&[f64]; 3], f
             let sent = radiance[k] * strength;
             is_seen |= seen != 0.0;
             is_sent |= sent != 0.0;
-            lit.gained[k][first + i] = weight[k][i] * seen * sent;
+            gained[k][i] = weight[k][i] * seen * sent;
         }
         let gains = (strength != 0.0) & (light > 0.0) & is_seen & is_sent;
-        lit.is_gained[first + i] = u64::from(gains);
+        is_gained[i] = u64::from(gains);
     }
+    put(lit.gained.each_mut(), first, gained.each_ref());
+    lit.is_gained[first..first + GROUP].copy_from_slice(&is_gained);
 }

@@ -13,24 +13,28 @@ pub const GROUP: usize = F64x32::WIDTH;
 /// A number for each of them.
 pub type Group = [f64; GROUP];
 
-/// The numbers of columns from number `first` on, zeros beyond their ends: lanes that read copies know that nothing else writes
-/// them.
+/// The numbers of columns from number `first` on; zeros beyond their ends, for which there is a spare group each.
 #[inline(always)]
-pub fn groups<const N: usize>(columns: [&[f64]; N], first: usize) -> [Group; N] {
+pub fn groups<'a, const N: usize>(
+    columns: [&'a [f64]; N],
+    first: usize,
+    spare: &'a mut [Group; N],
+) -> [&'a Group; N] {
+    let mut spare = spare.iter_mut();
     columns.map(|column| {
-        let column = &column[first.min(column.len())..];
-        column
-            .first_chunk()
-            .copied()
-            .unwrap_or_else(|| last(column))
+        let (rest, spare) = (&column[first.min(column.len())..], spare.next());
+        rest.first_chunk().unwrap_or_else(|| last(rest, spare))
     })
 }
 
-/// The group at the end of a column: rare.
+/// What is left at the end of a column, with zeros behind it: rare.
 #[cold]
-fn last(column: &[f64]) -> Group {
-    let mut group = [0.0; GROUP];
-    group[..column.len()].copy_from_slice(column);
+fn last<'a>(rest: &[f64], spare: Option<&'a mut Group>) -> &'a Group {
+    let Some(group) = spare else {
+        return &[0.0; GROUP];
+    };
+    *group = [0.0; GROUP];
+    group[..rest.len()].copy_from_slice(rest);
     group
 }
 

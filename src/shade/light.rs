@@ -52,7 +52,7 @@ impl Lamp {
 
     /// What arrives at some points, by axis. To be called with the instructions of lanes.
     #[inline(always)]
-    pub fn shine(&self, points: &[Group; 3]) -> Arrivals {
+    pub fn shine(&self, points: [&Group; 3]) -> Arrivals {
         // A loop for each kind: within it, all points are alike.
         match self.light.source {
             Source::Directional { toward } => Arrivals {
@@ -90,7 +90,7 @@ impl Lamp {
 
 /// What arrives at points from `position`.
 #[inline(always)]
-fn arrivals(position: DVec3, falloff: Falloff, points: &[Group; 3]) -> Arrivals {
+fn arrivals(position: DVec3, falloff: Falloff, points: [&Group; 3]) -> Arrivals {
     let mut all = Arrivals {
         toward: [[0.0; GROUP]; 3],
         strength: [1.0; GROUP],
@@ -141,7 +141,8 @@ mod tests {
 
     /// What arrives at a point; `None` where nothing does.
     fn at(lamp: &Lamp, point: DVec3) -> Option<DVec3> {
-        let arrivals = lamp.shine(&point.to_array().map(|part| [part; GROUP]));
+        let points = point.to_array().map(|part| [part; GROUP]);
+        let arrivals = lamp.shine(points.each_ref());
         let radiance = lamp.radiance() * arrivals.strength[0];
         (radiance != DVec3::ZERO).then_some(radiance)
     }

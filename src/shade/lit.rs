@@ -1,5 +1,10 @@
 //! Hits in the light of lamps, side by side.
 
+#![allow(
+    clippy::needless_range_loop,
+    reason = "lanes run through many arrays side by side"
+)]
+
 use super::highlight::{GROUP, Group, groups};
 use super::light::{Arrivals, Lamp};
 use super::offset;
@@ -13,7 +18,8 @@ use std::ops::Range;
 /// How many hits are lit at once.
 pub const CHUNK: usize = 256;
 
-type Column = [f64; CHUNK];
+/// A number for each hit of a chunk.
+pub type Column = [f64; CHUNK];
 
 /// Up to [`CHUNK`] hits as their viewer sees them, and what one lamp sends them. What was not hit is there too, with numbers
 /// that mean nothing. Every column begins with a cache line.
@@ -72,6 +78,14 @@ impl Lit {
     }
 }
 
+/// Puts a group of numbers in their places, from number `first` on.
+#[inline(always)]
+pub fn put<const N: usize>(columns: [&mut Column; N], first: usize, groups: [&Group; N]) {
+    for (column, group) in columns.into_iter().zip(groups) {
+        column[first..first + GROUP].copy_from_slice(group);
+    }
+}
+
 /// Takes hits as their viewer sees them.
 pub struct Face<'a> {
     /// Where they go.
@@ -90,32 +104,37 @@ impl<'a> Task for Face<'a> {
     #[inline(always)]
     fn run(self) {
         let (lit, some) = (self.lit, self.numbers);
-        let slice = |column: &'a [f64]| &column[some.clone()];
         let (rays, outcomes) = (self.rays, self.outcomes);
-        let direction = rays.direction().map(slice);
-        let (normal, point) = (outcomes.normal().map(slice), outcomes.point().map(slice));
-        let (t, error) = (slice(outcomes.t()), slice(outcomes.error()));
-        let footprint = rays.footprint().map(slice);
+        let ([a, b, c], [d, e, f]) = (rays.direction(), outcomes.normal());
+        let ([g, h, k], [width, spread]) = (outcomes.point(), rays.footprint());
+        let (t, error) = (outcomes.t(), outcomes.error());
+        let columns = [a, b, c, d, e, f, g, h, k, t, error, width, spread];
+        let columns = columns.map(|column| &column[some.clone()]);
+        let mut spare = [[0.0; GROUP]; 13];
         for first in (0..some.len()).step_by(GROUP) {
             let first = first.min(CHUNK - GROUP);
-            let (direction, normal) = (groups(direction, first), groups(normal, first));
-            let point = groups(point, first);
-            let [t, error] = &groups([t, error], first);
-            let [at_origin, spread] = &groups(footprint, first);
+            let [a, b, c, d, e, f, g, h, k, t, error, at_origin, grows] =
+                groups(columns, first, &mut spare);
+            let (mut normal, mut start) = ([[0.0; GROUP]; 3], [[0.0; GROUP]; 3]);
+            let (mut width, mut spread) = ([0.0; GROUP], [0.0; GROUP]);
             for i in 0..GROUP {
-                let facing = offset::facing(place(&normal, i), place(&direction, i));
-                let start = offset::start(place(&point, i), t[i], error[i], facing);
+                let facing = offset::facing(place(&[d, e, f], i), place(&[a, b, c], i));
+                let begin = offset::start(place(&[g, h, k], i), t[i], error[i], facing);
                 for axis in 0..3 {
-                    lit.normal[axis][first + i] = facing[axis];
-                    lit.start[axis][first + i] = start[axis];
+                    normal[axis][i] = facing[axis];
+                    start[axis][i] = begin[axis];
                 }
                 let footprint = Footprint {
                     at_origin: at_origin[i],
-                    spread: spread[i],
+                    spread: grows[i],
                 };
-                lit.width[first + i] = footprint.at(t[i]);
-                lit.spread[first + i] = footprint.spread;
+                width[i] = footprint.at(t[i]);
+                spread[i] = footprint.spread;
             }
+            put(lit.normal.each_mut(), first, normal.each_ref());
+            put(lit.start.each_mut(), first, start.each_ref());
+            let widths = [&mut lit.width, &mut lit.spread];
+            put(widths, first, [&width, &spread]);
         }
         lit.numbers = some;
     }
@@ -141,23 +160,29 @@ impl<'a> Task for Shine<'a> {
     #[inline(always)]
     fn run(self) {
         let some = self.lit.numbers.clone();
-        let slice = |column: &'a [f64]| &column[some.clone()];
-        let point = self.outcomes.point().map(slice);
-        let direction = self.rays.direction().map(slice);
+        let lit = self.lit;
+        let ([a, b, c], [d, e, f]) = (self.outcomes.point(), self.rays.direction());
+        let columns = [a, b, c, d, e, f].map(|column| &column[some.clone()]);
+        let mut spare = [[0.0; GROUP]; 6];
         for first in (0..some.len()).step_by(GROUP) {
             let first = first.min(CHUNK - GROUP);
-            let (point, direction) = (groups(point, first), groups(direction, first));
-            let arrivals = self.lamp.shine(&point);
-            shine(self.lit, &arrivals, &direction, first);
+            let [a, b, c, d, e, f] = groups(columns, first, &mut spare);
+            let arrivals = self.lamp.shine([a, b, c]);
+            shine(lit, &arrivals, [d, e, f], first);
             if self.has_halfway {
+                let mut cosines = [0.0; GROUP];
                 for i in 0..GROUP {
-                    let normal = place(&self.lit.normal, first + i);
-                    let (toward, view) = (place(&arrivals.toward, i), -place(&direction, i));
-                    self.lit.halfway[first + i] = halfway(normal, toward, view);
+                    let normal = place(&lit.normal, first + i);
+                    let (toward, view) = (place(&arrivals.toward, i), -place(&[d, e, f], i));
+                    cosines[i] = halfway(normal, toward, view);
                 }
+                put([&mut lit.halfway], first, [&cosines]);
             }
             if let Some(position) = self.lamp.position() {
-                aim(self.lit, position, first);
+                aim(lit, position, first);
+            } else {
+                put(lit.way.each_mut(), first, arrivals.toward.each_ref());
+                put([&mut lit.end], first, [&[f64::INFINITY; GROUP]]);
             }
         }
     }
@@ -165,19 +190,22 @@ impl<'a> Task for Shine<'a> {
 
 /// Finds how a group of hits stands to a lamp, from number `first` on.
 #[inline(always)]
-fn shine(lit: &mut Lit, arrivals: &Arrivals, direction: &[Group; 3], first: usize) {
+fn shine(lit: &mut Lit, arrivals: &Arrivals, direction: [&Group; 3], first: usize) {
+    let (mut light, mut mirror) = ([0.0; GROUP], [0.0; GROUP]);
     for i in 0..GROUP {
         let (normal, toward) = (place(&lit.normal, first + i), place(&arrivals.toward, i));
-        let cosines = Cosines::new(normal, toward, -place(direction, i));
-        lit.light[first + i] = cosines.light;
-        lit.mirror[first + i] = cosines.mirror;
-        lit.halfway[first + i] = 0.0;
-        lit.strength[first + i] = arrivals.strength[i];
-        lit.end[first + i] = f64::INFINITY;
-        for axis in 0..3 {
-            lit.way[axis][first + i] = toward[axis];
-        }
+        let cosines = Cosines::new(normal, toward, -place(&direction, i));
+        light[i] = cosines.light;
+        mirror[i] = cosines.mirror;
     }
+    let columns = [
+        &mut lit.light,
+        &mut lit.mirror,
+        &mut lit.halfway,
+        &mut lit.strength,
+    ];
+    let groups = [&light, &mirror, &[0.0; GROUP], &arrivals.strength];
+    put(columns, first, groups);
 }
 
 /// Finds the ways from the starts of a group's shadow rays, from number `first` on, to a lamp.

@@ -1,10 +1,12 @@
 //! Vectors without branches, to serve in lanes.
 
 use glam::DVec3;
+use std::borrow::Borrow;
 
 /// Vector number `i` of columns by axis.
 #[inline(always)]
-pub fn place<const N: usize>(columns: &[[f64; N]; 3], i: usize) -> DVec3 {
+pub fn place<const N: usize>(columns: &[impl Borrow<[f64; N]>; 3], i: usize) -> DVec3 {
+    let columns = columns.each_ref().map(Borrow::borrow);
     DVec3::new(columns[0][i], columns[1][i], columns[2][i])
 }
 

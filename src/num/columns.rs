@@ -95,6 +95,13 @@ impl<const N: usize> Columns<N> {
     /// # Panics
     /// If a column is too short.
     pub fn pick(&mut self, columns: [&[f64]; N], rows: &[u32]) {
+        let from = rows.first().map_or(0, |row| *row);
+        let others = rows.iter().zip(from..).filter(|(a, b)| **a != *b);
+        if others.count() == 0 {
+            // Rows that follow one another.
+            let run = from as usize..from as usize + rows.len();
+            return self.append(columns.map(|column| &column[run.clone()]));
+        }
         let first = self.rows;
         self.grow(rows.len());
         for (target, source) in self.columns_mut().into_iter().zip(columns) {

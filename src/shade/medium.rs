@@ -144,10 +144,12 @@ impl Media {
     }
 }
 
-/// The media around rays, side by side; none are stored as long as all rays are in empty space.
+/// The media around rays, side by side: neighbours that share theirs store them once, and nothing is stored as long as all rays
+/// are in empty space.
 #[derive(Clone, Debug, Default)]
 pub struct Surroundings {
-    some: Vec<Media>,
+    /// Media, each with the number of the ray behind the last one that is in them.
+    runs: Vec<(Media, usize)>,
     count: usize,
 }
 
@@ -155,34 +157,42 @@ impl Surroundings {
     /// That many rays in empty space.
     pub fn empty(count: usize) -> Self {
         Self {
-            some: Vec::new(),
+            runs: Vec::new(),
             count,
         }
     }
 
     /// Forgets all of them.
     pub fn clear(&mut self) {
-        self.some.clear();
+        self.runs.clear();
         self.count = 0;
     }
 
     /// Whether all rays are in empty space.
     pub fn are_empty(&self) -> bool {
-        self.some.is_empty()
+        self.runs.is_empty()
     }
 
     /// The media around ray number `i`.
     pub fn at(&self, i: usize) -> &Media {
-        self.some.get(i).unwrap_or(&Media::EMPTY)
+        let run = self.runs.partition_point(|(_, end)| *end <= i);
+        self.runs.get(run).map_or(&Media::EMPTY, |(media, _)| media)
     }
 
     /// Adds those of a ray.
     pub fn push(&mut self, media: &Media) {
-        if !(self.some.is_empty() && media.is_empty()) {
-            self.some.resize(self.count, Media::EMPTY);
-            self.some.push(media.clone());
-        }
+        let before = self.count;
         self.count += 1;
+        match self.runs.last_mut() {
+            Some((last, end)) if last.is_same(media) => *end = self.count,
+            None if media.is_empty() => {}
+            last => {
+                if last.is_none() && before > 0 {
+                    self.runs.push((Media::EMPTY, before));
+                }
+                self.runs.push((media.clone(), self.count));
+            }
+        }
     }
 }
 

@@ -9,12 +9,12 @@ use super::fresnel::share;
 use super::highlight::GROUP;
 use super::lit::CHUNK;
 use super::looks::Looks;
-use super::medium::{Crossing, Media, Medium};
+use super::medium::{Crossing, Media, Medium, Surroundings};
 use super::offset;
 use super::palette::Palette;
 use super::reflect::reflected;
 use super::refract::{bent, transmitted_cosine};
-use super::wave::{Meetings, Waves};
+use super::wave::{Meetings, Wave, Waves};
 use super::{Census, FAINTEST, Surface};
 use crate::field::{Level, Task, run_at};
 use crate::trace::Footprint;
@@ -46,7 +46,7 @@ pub struct Senders {
     /// The indices of refraction on the ray's side and on the other.
     indices: [Column; 2],
     /// What the refracted rays travel in.
-    beyond: Vec<Media>,
+    beyond: Surroundings,
     mirrored: Branches,
     through: Branches,
     /// How far they are followed: all the way.
@@ -113,7 +113,7 @@ impl Senders {
             refract: column,
             fresnel: column,
             indices: [column; 2],
-            beyond: Vec::with_capacity(CHUNK),
+            beyond: Surroundings::default(),
             mirrored: Branches::new(),
             through: Branches::new(),
             end: [f64::INFINITY; CHUNK],
@@ -126,7 +126,7 @@ impl Senders {
         &mut self,
         wave: Meetings,
         (palette, looks): (&Palette, &Looks),
-        (next, depth): (&mut [Waves; 2], u32),
+        (next, depth, spare): (&mut [Waves; 2], u32, &mut Vec<Wave>),
         (census, level): (&mut Census, Level),
     ) {
         let mut first = 0;
@@ -139,9 +139,9 @@ impl Senders {
             run_at(level, Turn(self));
             let [mirrored, through] = &mut *next;
             let is_too_deep = mirrored.depth > depth;
-            let next = (mirrored, is_too_deep);
+            let next = (mirrored, is_too_deep, &mut *spare);
             census.reflected += self.push(&self.mirrored, wave, next, None, census);
-            let (next, beyond) = ((through, is_too_deep), Some(&self.beyond[..]));
+            let (next, beyond) = ((through, is_too_deep, &mut *spare), Some(&self.beyond));
             census.refracted += self.push(&self.through, wave, next, beyond, census);
         }
     }
@@ -172,10 +172,10 @@ impl Senders {
                 self.reflect[k] = surface.reflect;
                 self.refract[k] = surface.refract;
                 self.fresnel[k] = surface.fresnel;
-                let (mut indices, mut beyond) = ([1.0; 2], Media::EMPTY);
+                let (mut indices, mut beyond) = ([1.0; 2], &Media::EMPTY);
                 if bends {
                     let crossing = crossing(wave, i, surface, &mut last);
-                    (indices, beyond) = ([crossing.n1, crossing.n2], crossing.beyond.clone());
+                    (indices, beyond) = ([crossing.n1, crossing.n2], &crossing.beyond);
                 }
                 (self.indices[0][k], self.indices[1][k]) = (indices[0], indices[1]);
                 self.beyond.push(beyond);
@@ -215,8 +215,8 @@ impl Senders {
         &self,
         branches: &Branches,
         wave: Meetings,
-        (next, is_too_deep): (&mut Waves, bool),
-        beyond: Option<&[Media]>,
+        (next, is_too_deep, spare): (&mut Waves, bool, &mut Vec<Wave>),
+        beyond: Option<&Surroundings>,
         census: &mut Census,
     ) -> u64 {
         let mut chosen: Vec<u32> = Vec::with_capacity(self.numbers.len());
@@ -236,14 +236,14 @@ impl Senders {
         let columns = [a, b, c, d, e, f, &self.end, &self.width, &self.spread];
         let number = |k: u32| self.numbers[k as usize] as usize;
         next.take(
-            &chosen,
+            (&chosen, spare),
             (
                 columns.map(|column| &column[..]),
                 branches.weight.each_ref().map(|column| &column[..]),
             ),
             |k| wave.paths.sample[number(k)],
             |k| match beyond {
-                Some(beyond) => &beyond[k as usize],
+                Some(beyond) => beyond.at(k as usize),
                 None => wave.paths.media.at(number(k)),
             },
         );

@@ -33,6 +33,27 @@ pub struct Wave {
     pub paths: Paths,
 }
 
+impl Wave {
+    /// No rays.
+    fn new() -> Self {
+        Self {
+            depth: 0,
+            rays: Rays::with_capacity(USUAL_WAVE),
+            paths: Paths::with_capacity(USUAL_WAVE),
+        }
+    }
+
+    /// Without its rays, for others of this depth.
+    fn cleared(mut self, depth: u32) -> Self {
+        self.depth = depth;
+        self.rays.clear();
+        self.paths.weight.resize(0);
+        self.paths.sample.clear();
+        self.paths.media.clear();
+        self
+    }
+}
+
 impl Paths {
     /// Makes them those of that many camera rays, in empty space.
     pub fn start(&mut self, rays: usize) {
@@ -92,10 +113,10 @@ impl Waves {
     }
 
     /// Adds the rays of these numbers of columns: where they go, and what each weighs, belongs to and travels in. Those of a
-    /// sample come one after the other.
+    /// sample come one after the other. Waves that are done with are used again.
     pub fn take<'a>(
         &mut self,
-        numbers: &[u32],
+        (numbers, spare): (&[u32], &mut Vec<Wave>),
         (rays, weight): ([&[f64]; Rays::COLUMNS], [&[f64]; 3]),
         sample: impl Fn(u32) -> u32,
         media: impl Fn(u32) -> &'a Media,
@@ -113,11 +134,8 @@ impl Waves {
                 None => 0,
             };
             if some == 0 {
-                self.waves.push(Wave {
-                    depth: self.depth,
-                    rays: Rays::with_capacity(USUAL_WAVE),
-                    paths: Paths::with_capacity(USUAL_WAVE),
-                });
+                let wave = spare.pop().unwrap_or_else(Wave::new);
+                self.waves.push(wave.cleared(self.depth));
                 continue;
             }
             let (some, rest) = left.split_at(some);
@@ -145,7 +163,7 @@ mod tests {
         let column: Vec<f64> = (0..count).map(f64::from).collect();
         let numbers: Vec<u32> = (0..count).collect();
         let columns = ([&column[..]; Rays::COLUMNS], [&column[..]; 3]);
-        waves.take(&numbers, columns, sample, |k| {
+        waves.take((&numbers, &mut Vec::new()), columns, sample, |k| {
             &media[k as usize % media.len()]
         });
     }

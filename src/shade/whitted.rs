@@ -127,6 +127,8 @@ struct Memory {
     paths: Paths,
     /// What other rays meet.
     outcomes: Outcomes,
+    /// Waves that are done with.
+    spare: Vec<Wave>,
 }
 
 /// Where light is collected.
@@ -251,6 +253,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             senders: Senders::new(),
             paths: Paths::default(),
             outcomes: Outcomes::default(),
+            spare: Vec::new(),
         });
         let (mut first, mut found) = (
             mem::take(&mut memory.paths),
@@ -273,6 +276,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             census.unknown_secondary += count(&found.verdict, Verdict::Unknown) as u64;
             let Wave { depth, rays, paths } = &mut wave;
             waiting.extend(self.shade(*depth, rays, paths, &found, &mut studio));
+            studio.memory.spare.push(wave);
         }
         (memory.paths, memory.outcomes) = (first, found);
         MEMORY.with(|cell| cell.set(Some(memory)));
@@ -316,11 +320,16 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             return Vec::new();
         }
         let mut next = [(); 2].map(|()| Waves::new(depth + 1));
-        let Memory { looks, senders, .. } = &mut *studio.memory;
+        let Memory {
+            looks,
+            senders,
+            spare,
+            ..
+        } = &mut *studio.memory;
         senders.send_on(
             wave,
             (&self.palette, looks),
-            (&mut next, self.depth),
+            (&mut next, self.depth, spare),
             (studio.census, self.level),
         );
         let [mut waves, refracted] = next.map(|waves| waves.waves);

@@ -46,35 +46,43 @@ impl Lattice {
     }
 }
 
-/// What is left of the whole number `x` above a multiple of `m`. The half keeps the product off whole numbers, so that
-/// its rounding does not matter.
+/// How often `m` goes into the whole number `x`, from 0 to four millions. The reciprocal is too large by a part in 2^23: enough
+/// for its rounding, in `f32` too, and too little to reach the next whole number.
 #[inline(always)]
-fn modulo<N: Number>(x: N, m: f64) -> N {
-    x - ((x + N::splat(0.5)) * N::splat(1.0 / m)).floor() * N::splat(m)
+fn quotient<N: Number>(x: N, m: f64) -> N {
+    (x * N::splat((1.0 + 1.0 / (1u32 << 23) as f64) / m)).floor()
 }
 
-/// A permutation of the whole numbers below 289; larger ones count by what they leave.
+/// What is left of the whole number `x`, from 0 to four millions, above a multiple of `m`.
+#[inline(always)]
+fn modulo<N: Number>(x: N, m: f64) -> N {
+    x - quotient(x, m) * N::splat(m)
+}
+
+/// A permutation of the whole numbers below 289; others, from -289 to 291, count by what they leave.
 #[inline(always)]
 fn hash<N: Number>(x: N) -> N {
     modulo((x * N::splat(34.0) + N::splat(10.0)) * x, PERIOD)
 }
 
-/// The hash of a row's hash `h` and a number `i` up to 291.
+/// A number up to 291 less the period, as [`hash_next`] takes it: the sum with a hash is then one of those that can be hashed.
 #[inline(always)]
-fn hash_next<N: Number>(h: N, i: N) -> N {
-    let sum = h + i;
-    hash(N::select_lt(
-        sum,
-        N::splat(PERIOD),
-        sum,
-        sum - N::splat(PERIOD),
-    ))
+fn less<N: Number>(i: N) -> N {
+    i - N::splat(PERIOD)
 }
 
-/// The number of a cell that starts at the whole number `x`, from 0 to 288.
+/// The hash of a row's hash `h` and a number that is [`less`].
+#[inline(always)]
+fn hash_next<N: Number>(h: N, i: N) -> N {
+    hash(h + i)
+}
+
+/// The number of a cell that starts at the whole number `x`, from 0 to 288. The half keeps the product off whole numbers, so
+/// that its rounding does not matter.
 #[inline(always)]
 fn cell<N: Number>(x: N) -> N {
-    modulo(x, PERIOD).clamp(N::splat(0.0), N::splat(PERIOD - 1.0))
+    let times = ((x + N::splat(0.5)) * N::splat(1.0 / PERIOD)).floor();
+    (x - times * N::splat(PERIOD)).clamp(N::splat(0.0), N::splat(PERIOD - 1.0))
 }
 
 /// The quintic 6 t^5 - 15 t^4 + 10 t^3. Source: Perlin 2002.
@@ -92,7 +100,7 @@ pub(super) fn fade_slope<N: Number>(t: N) -> N {
 /// The hash of the cell or corner at three whole numbers.
 pub(super) fn hash_at(corner: [f64; 3]) -> f64 {
     let [i, j, k] = corner.map(cell);
-    hash_next(hash_next(hash(i), j), k)
+    hash_next(hash_next(hash(i), less(j)), less(k))
 }
 
 /// What a corner draws: a plane across an axis (0, 1 or 2), and a sign for each of two directions in it.
@@ -144,6 +152,7 @@ fn split<N: Number>(x: N) -> (N, N) {
 #[inline(always)]
 fn corners<N: Number>(i: N, j: N, k: N) -> [[[N; 2]; 2]; 2] {
     let one = N::splat(1.0);
+    let (j, k) = (less(j), less(k));
     let mut hashes = [[[i; 2]; 2]; 2];
     for (right, i) in [i, i + one].into_iter().enumerate() {
         let row = hash(i);
@@ -233,8 +242,7 @@ pub(super) fn noise_slope<N: Number>(x: N, y: N, z: N) -> [N; 3] {
 #[inline(always)]
 pub(super) fn scattered<N: Number>(h: N) -> [N; 3] {
     let (step, seven) = (N::splat(0.125), N::splat(7.0));
-    let rows = ((h + N::splat(0.5)) * N::splat(1.0 / 7.0)).floor();
-    let layers = ((h + N::splat(0.5)) * N::splat(1.0 / 49.0)).floor();
+    let (rows, layers) = (quotient(h, 7.0), quotient(h, 49.0));
     [
         (h - rows * seven) * step + N::splat(0.125),
         (rows - layers * seven) * step + N::splat(0.125),
@@ -257,7 +265,7 @@ fn nearest<N: Number>(x: N, y: N, z: N) -> ([N; 3], N) {
         (y - half).floor() - N::splat(1.0),
         (z - half).floor() - N::splat(1.0),
     ];
-    let numbers = [cell(first[0]), cell(first[1]), cell(first[2])];
+    let numbers = [cell(first[0]), less(cell(first[1])), less(cell(first[2]))];
     let from = [x - first[0], y - first[1], z - first[2]];
     let mut way = [N::splat(0.0); 3];
     let mut shortest = N::splat(f64::INFINITY);
@@ -345,8 +353,16 @@ mod tests {
             assert_eq!(hash(x as f32), expected as f32);
             for i in 0..=291u64 {
                 let expected = (34 * (expected + i) + 10) * (expected + i) % 289;
-                assert_eq!(hash_next(hash(x as f64), i as f64), expected as f64);
-                assert_eq!(hash_next(hash(x as f32), i as f32), expected as f32);
+                let (wide, short) = (less(i as f64), less(i as f32));
+                assert_eq!(hash_next(hash(x as f64), wide), expected as f64);
+                assert_eq!(hash_next(hash(x as f32), short), expected as f32);
+            }
+        }
+        for x in 0..4_000_000u32 {
+            for m in [7, 12, 49, 289] {
+                let (expected, m) = (x / m, f64::from(m));
+                assert_eq!(quotient(x as f32, m), expected as f32, "{x} by {m}");
+                assert_eq!(quotient(f64::from(x), m), f64::from(expected), "{x} by {m}");
             }
         }
         for x in -4_000_000i64..4_000_000 {

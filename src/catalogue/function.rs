@@ -92,10 +92,7 @@ functions! {
     /// a for t = 0, b for t = 1, straight between.
     Mix = "mix" (a, b, t) t.mix(a, b);
     /// 0 below low, 1 above high, a smooth cubic between.
-    Smoothstep = "smoothstep" (low, high, x) {
-        let t = ((x - low) / (high - low)).clamp(N::splat(0.0), N::splat(1.0));
-        t.ease()
-    };
+    Smoothstep = "smoothstep" (low, high, x) ((x - low) / (high - low)).smoothstep();
     /// x to the power e.
     Pow = "pow" (x, e) x.pow(e);
     /// The length of the vector (x, y).

@@ -121,6 +121,12 @@ pub trait Number:
         self.square() * (Self::splat(3.0) - self - self)
     }
 
+    /// [`Number::ease`] of `self` held within [0, 1]: its slope has no jump at the ends.
+    #[inline(always)]
+    fn smoothstep(self) -> Self {
+        self.clamp(Self::splat(0.0), Self::splat(1.0)).ease()
+    }
+
     /// The square, which is never negative (tighter than `self * self` in an interval).
     #[inline(always)]
     fn square(self) -> Self {

@@ -157,6 +157,17 @@ impl Number for Bent {
         self.smooth(self.steep.ease(), first, point(-12.0) * from_middle)
     }
 
+    /// The slope of the cubic is 0 at its ends, so beyond them only the bend 0 is added.
+    fn smoothstep(self) -> Self {
+        let (point, x) = (Interval::point, self.value());
+        let from_middle = x.clamp(point(0.0), point(1.0)) - point(0.5);
+        let first = point(1.5) - point(6.0) * from_middle.square();
+        let second = point(-12.0) * from_middle;
+        let is_within = x.lo >= 0.0 && x.hi <= 1.0;
+        let second = if is_within { second } else { second.hull(ZERO) };
+        self.smooth(self.steep.smoothstep(), first, second)
+    }
+
     fn hypot(self, o: Self) -> Self {
         Self::length(self.steep.hypot(o.steep), [self, o])
     }
@@ -244,7 +255,20 @@ impl Number for Bent {
         Self::new(self.steep, common(bend, self.bend))
     }
 
+    /// With the point q and the gradient g: at most the largest bend times |q'|^2, and g.q''.
     fn lattice(lattice: Lattice, x: Self, y: Self, z: Self) -> Self {
-        Self::unknown(Steep::lattice(lattice, x.steep, y.steep, z.steep))
+        let steep = Steep::lattice(lattice, x.steep, y.steep, z.steep);
+        let parts = [x, y, z];
+        let [u, v, w] = parts.map(|q| q.value());
+        let most = lattice.bend();
+        if most == f64::INFINITY || steep.value() == Interval::ENTIRE {
+            return Self::unknown(steep);
+        }
+        let gradient = Interval::lattice_slope(lattice, u, v, w);
+        let carried = parts.into_iter().zip(gradient);
+        let carried = carried.fold(ZERO, |sum, (q, slope)| sum + slope * q.bend);
+        let speed = norm(&parts.map(|q| q.steep));
+        let own = around_zero(times(most, times(speed, speed)));
+        Self::new(steep, own + carried)
     }
 }

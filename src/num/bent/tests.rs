@@ -294,7 +294,7 @@ fn a_wave_in_two_directions_bends_as_its_amplitude_allows() {
 }
 
 #[test]
-fn lattices_have_no_bound() {
+fn scattered_points_have_no_bound() {
     let [x, y, z] = variables([Interval::new(0.0, 1.0); 3]);
     let voronoi = Bent::lattice(Lattice::Voronoi, x, y, z);
     assert_eq!(

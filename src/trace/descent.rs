@@ -4,7 +4,7 @@
 //! from the nodes that it has met. Source: Reshetov, Soupikov and Hurley 2005, entry points for beams of rays.
 
 use super::beam::Beam;
-use super::hierarchy::Hierarchy;
+use super::hierarchy::{BRANCHES, Hierarchy};
 use crate::field::{Level, Task, run_at};
 
 /// What a beam has met on its way down.
@@ -78,14 +78,15 @@ impl Task for Down<'_, '_> {
             let node = self.step.hierarchy.node(*number);
             let entered = self.step.beam.entered(&node.boxes, self.step.limit);
             let before = met.len();
-            for (inside, enter) in node.inside.iter().zip(entered).take(node.count) {
-                if enter == f64::INFINITY {
-                    continue;
-                }
+            let bits = (0..BRANCHES).map(|k| u32::from(entered[k] < f64::INFINITY) << k);
+            let mut left = bits.fold(0, |all, bit| all | bit) & ((1 << node.count) - 1);
+            while left != 0 {
+                let k = left.trailing_zeros() as usize % BRANCHES;
+                left &= left - 1;
                 if node.has_parts {
-                    met.push((enter, *inside));
+                    met.push((entered[k], node.inside[k]));
                 } else {
-                    next.push(*inside);
+                    next.push(node.inside[k]);
                 }
             }
             if met.len() > before {

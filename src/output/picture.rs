@@ -2,7 +2,7 @@
 
 use super::chart::{NARROWEST, legend};
 use super::colormap::{heat, hue};
-use super::srgb;
+use super::srgb::Codes;
 use crate::render::{Channel, Film};
 use image::{Rgb, RgbImage};
 
@@ -51,7 +51,10 @@ type Painter = Box<dyn Fn(&[f32]) -> [u8; 3]>;
 
 fn painter(channel: Channel, values: &[f32]) -> Painter {
     match channel {
-        Channel::Beauty | Channel::Color => Box::new(light),
+        Channel::Beauty | Channel::Color => {
+            let codes = Codes::new();
+            Box::new(move |color| light(codes, color))
+        }
         Channel::Normal => Box::new(normal),
         Channel::Depth => depth(values),
         Channel::Steps | Channel::Evaluations => cost(values),
@@ -60,8 +63,8 @@ fn painter(channel: Channel, values: &[f32]) -> Painter {
     }
 }
 
-fn light(color: &[f32]) -> [u8; 3] {
-    std::array::from_fn(|i| srgb::encode(f64::from(color[i])))
+fn light(codes: Codes, color: &[f32]) -> [u8; 3] {
+    std::array::from_fn(|i| codes.of(f64::from(color[i])))
 }
 
 fn normal(n: &[f32]) -> [u8; 3] {
@@ -141,8 +144,9 @@ mod tests {
 
     #[test]
     fn light_is_encoded_and_nan_is_black() {
-        assert_eq!(light(&[0.0, 0.5, 2.0]), [0, 188, 255]);
-        assert_eq!(light(&[f32::NAN, -1.0, 1.0]), [0, 0, 255]);
+        let light = |color: [f32; 3]| super::light(Codes::new(), &color);
+        assert_eq!(light([0.0, 0.5, 2.0]), [0, 188, 255]);
+        assert_eq!(light([f32::NAN, -1.0, 1.0]), [0, 0, 255]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use crate::scene::Settings;
 use image::RgbImage;
-use png::{BitDepth, ColorType, Encoder, EncodingError, SrgbRenderingIntent};
+use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, SrgbRenderingIntent};
 
 /// What a picture says about itself.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -66,6 +66,8 @@ pub fn encode(image: &RgbImage, metadata: &Metadata) -> Result<Vec<u8>, Encoding
     let mut encoder = Encoder::new(&mut bytes, image.width(), image.height());
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
+    // A third of the time for files a third to a half larger: to compress well took as long as to render.
+    encoder.set_compression(Compression::Fast);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
     for (keyword, text) in metadata.entries() {
         // tEXt is Latin-1 and read by every program; iTXt takes the rest.

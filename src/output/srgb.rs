@@ -17,9 +17,49 @@ pub fn decode(encoded: f64) -> f64 {
 static STEPS: LazyLock<[f64; 255]> =
     LazyLock::new(|| std::array::from_fn(|k| decode((k as f64 + 0.5) / 255.0)));
 
+/// How finely linear light is divided for [`FIRST`]: no more than one step lies in a part.
+const PARTS: usize = 4096;
+
+/// The code at which each part of [0, 1] begins.
+static FIRST: LazyLock<[u8; PARTS]> = LazyLock::new(|| {
+    std::array::from_fn(|part| {
+        let start = part as f64 / PARTS as f64;
+        STEPS.partition_point(|step| *step <= start) as u8
+    })
+});
+
 /// The 8-bit code of `linear` light, clamped to [0, 1] and rounded; 0 for NaN.
 pub fn encode(linear: f64) -> u8 {
-    STEPS.partition_point(|step| *step <= linear) as u8
+    Codes::new().of(linear)
+}
+
+/// The codes of light, for many numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct Codes {
+    steps: &'static [f64; 255],
+    first: &'static [u8; PARTS],
+}
+
+impl Codes {
+    /// All of them.
+    pub fn new() -> Self {
+        Self {
+            steps: &STEPS,
+            first: &FIRST,
+        }
+    }
+
+    /// As [`encode`].
+    #[inline]
+    pub fn of(&self, linear: f64) -> u8 {
+        // What is not a number, or negative, is in the first part.
+        let part = (linear * PARTS as f64) as usize;
+        let mut code = usize::from(self.first[part.min(PARTS - 1)]);
+        while code < self.steps.len() && self.steps[code] <= linear {
+            code += 1;
+        }
+        code as u8
+    }
 }
 
 #[cfg(test)]
@@ -59,6 +99,14 @@ mod tests {
                 is_tie || f64::from(encode(linear)) == exact.round(),
                 "{linear}"
             );
+        }
+    }
+
+    #[test]
+    fn codes_change_at_the_steps_and_nowhere_else() {
+        for (k, step) in STEPS.iter().enumerate() {
+            assert_eq!(usize::from(encode(*step)), k + 1);
+            assert_eq!(usize::from(encode(step.next_down())), k);
         }
     }
 

@@ -1,13 +1,14 @@
 //! Which leaf has most say on a field at a point.
 
-use super::paint::{child_point, weights};
+use super::paint::{Single, child_point, weights};
+use crate::num::Vec3;
 use crate::scene::{Node, Shape};
 use std::sync::Arc;
 
 /// The leaf of `node` that governs its field at `p`, and the deepest node on the way to it whose place in the script is
 /// known: down the tree, the child by which the field changes most, and under a modifier the point that it asks.
 pub fn governor(node: &Node, p: [f64; 3]) -> (&Node, Option<&Node>) {
-    let (mut node, mut p) = (node, p);
+    let (mut node, mut p) = (node, Vec3::splat(p));
     let mut placed = None;
     loop {
         placed = node.place().map(|_| node).or(placed);
@@ -15,11 +16,11 @@ pub fn governor(node: &Node, p: [f64; 3]) -> (&Node, Option<&Node>) {
             Shape::Primitive(_) | Shape::Field(_) => return (node, placed),
             Shape::Displacement(displacement) => &displacement.operands[0],
             Shape::Modifier(modifier, child) => {
-                p = child_point(modifier, child, p);
+                p = child_point(&Single, modifier, child, p);
                 child
             }
             Shape::Combination(combination, children) => {
-                let weights = weights(combination, children, p);
+                let weights = weights(&Single, combination, children, p);
                 heaviest(children, &weights)
             }
         };

@@ -14,6 +14,6 @@ pub use compile::{
 pub use governor::governor;
 pub use gradient::normal;
 pub use packets::{Packet, Packets};
-pub use paint::{Share, shares};
+pub use paint::{Brush, Share, shares};
 pub use processor::Level;
 pub use thicket::{Reach, Thicket, Thinned};

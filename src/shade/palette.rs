@@ -133,12 +133,13 @@ impl Palette {
         }
         let part = outcomes.part[rays.start];
         let Some(number) = surfaces.sole(part) else {
-            for i in rays {
-                let [x, y, z] = outcomes.point();
-                let surface = Surface::mixed(&surfaces.paints(part, DVec3::new(x[i], y[i], z[i])));
+            let [x, y, z] = outcomes.point();
+            let points: Vec<[f64; 3]> = rays.map(|i| [x[i], y[i], z[i]]).collect();
+            surfaces.paints_at(part, &points, &mut |_, paints| {
+                let surface = Surface::mixed(paints);
                 let number = surface.map_or(NONE, |surface| looks.add(self, surface));
                 looks.numbers.push(number);
-            }
+            });
             return;
         };
         let number = number as u32;

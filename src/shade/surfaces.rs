@@ -18,6 +18,14 @@ pub trait Surfaces: Sync {
     /// The materials at a point of the surface of `part`, with their shares.
     fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>>;
 
+    /// Gives `each` the materials at these points of the surface of `part`, with the number of the point: as
+    /// [`Surfaces::paints`], in order.
+    fn paints_at(&self, part: u32, points: &[[f64; 3]], each: &mut dyn FnMut(usize, &[Paint<'_>])) {
+        for (i, point) in points.iter().enumerate() {
+            each(i, &self.paints(part, DVec3::from_array(*point)));
+        }
+    }
+
     /// Every material that some part shows.
     fn materials(&self) -> &[Arc<Material>];
 
@@ -39,6 +47,10 @@ impl Surfaces for World {
 
     fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>> {
         Self::paints(self, part, point)
+    }
+
+    fn paints_at(&self, part: u32, points: &[[f64; 3]], each: &mut dyn FnMut(usize, &[Paint<'_>])) {
+        Self::paints_at(self, part, points, each);
     }
 
     fn materials(&self) -> &[Arc<Material>] {

@@ -1,7 +1,7 @@
 //! The world: a scene that is ready to be traced.
 
 use super::analytic::{ClosedForm, Crossing};
-use super::bundle::{Bundle, run};
+use super::bundle::{Bundle, WIDTH, run};
 use super::finding::Finding;
 use super::hierarchy::{Boxes, Hierarchy, clip, stretch};
 use super::join::joined;
@@ -14,12 +14,12 @@ use super::part::{Marched, Part, PartKind, flatten};
 use super::survey::{resolved, survey};
 use super::sweep::Question;
 use super::{Occlusion, Occlusions, Outcome, Outcomes, Ray, Rays, Verdict};
-use crate::field::{Level, normal, shares};
+use crate::field::{Brush, Level, Share, normal, shares};
 use crate::scene::{Fault, Material, Method, Node, Scene, Settings, Shadow};
 use glam::DVec3;
 use std::array;
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Which parts of the world a ray can see.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +51,8 @@ pub struct World {
     /// For each part what [`World::sole`] says.
     sole: Vec<Option<u32>>,
     default: Arc<Material>,
+    /// Of parts with several materials, those that were asked for theirs.
+    brushes: Mutex<BTreeMap<u32, Arc<Brush>>>,
     pub(super) settings: Settings,
     /// How far a ray without end is followed through shapes without end.
     pub(super) horizon: f64,
@@ -134,6 +136,7 @@ impl World {
             materials,
             sole,
             default,
+            brushes: Mutex::default(),
             settings,
             horizon: reach,
             level,
@@ -230,15 +233,39 @@ impl World {
 
     /// The materials at a point of the surface of `part`, one or more.
     pub fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>> {
-        let part = &self.parts[part as usize];
-        shares(&part.node, point.to_array())
-            .into_iter()
-            .map(|s| Paint {
-                material: s.material.unwrap_or(&self.default),
-                weight: s.weight,
-                point: s.point,
-            })
-            .collect()
+        let shares = shares(&self.parts[part as usize].node, point.to_array());
+        shares.iter().map(|share| self.paint(share)).collect()
+    }
+
+    /// Gives `each` the materials at these points of the surface of `part`, with their numbers: as [`World::paints`].
+    pub fn paints_at(
+        &self,
+        part: u32,
+        points: &[[f64; 3]],
+        each: &mut dyn FnMut(usize, &[Paint<'_>]),
+    ) {
+        let node = &self.parts[part as usize].node;
+        let brush = {
+            let mut brushes = self.brushes.lock().unwrap_or_else(PoisonError::into_inner);
+            let new = || Arc::new(Brush::new(node, self.level));
+            brushes.entry(part).or_insert_with(new).clone()
+        };
+        let mut paints = Vec::new();
+        for (k, some) in points.chunks(WIDTH).enumerate() {
+            brush.shares(node, some, |lane, shares| {
+                paints.clear();
+                paints.extend(shares.iter().map(|share| self.paint(share)));
+                each(WIDTH * k + lane, &paints);
+            });
+        }
+    }
+
+    fn paint<'a>(&'a self, share: &Share<'a>) -> Paint<'a> {
+        Paint {
+            material: share.material.unwrap_or(&self.default),
+            weight: share.weight,
+            point: share.point,
+        }
     }
 
     /// The number in [`World::materials`] of the material of `part`, if that is its only one and is the same at all of its

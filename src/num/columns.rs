@@ -1,5 +1,6 @@
 //! Tables of numbers, column by column in one piece of memory.
 
+use std::ops::Range;
 use std::{array, mem};
 
 /// `N` columns of one length.
@@ -95,11 +96,7 @@ impl<const N: usize> Columns<N> {
     /// # Panics
     /// If a column is too short.
     pub fn pick(&mut self, columns: [&[f64]; N], rows: &[u32]) {
-        let from = rows.first().map_or(0, |row| *row);
-        let others = rows.iter().zip(from..).filter(|(a, b)| **a != *b);
-        if others.count() == 0 {
-            // Rows that follow one another.
-            let run = from as usize..from as usize + rows.len();
+        if let Some(run) = run(rows) {
             return self.append(columns.map(|column| &column[run.clone()]));
         }
         let first = self.rows;
@@ -138,6 +135,15 @@ impl<const N: usize> Columns<N> {
     }
 }
 
+/// The range of rows that follow one another; none if they don't.
+#[inline(always)]
+pub fn run(rows: &[u32]) -> Option<Range<usize>> {
+    let first = rows.first().map_or(0, |row| *row);
+    // All are counted: a loop without an early end compares many at once.
+    let others = rows.iter().zip(first..).filter(|(a, b)| **a != *b);
+    (others.count() == 0).then_some(first as usize..first as usize + rows.len())
+}
+
 impl<const N: usize> Default for Columns<N> {
     fn default() -> Self {
         Self::with_capacity(0)
@@ -168,6 +174,14 @@ mod tests {
             assert_eq!(found, row(i));
         }
         assert_eq!((columns.len(), some.len()), (100, 6));
+        let mut others = Columns::<3>::default();
+        others.pick(columns.columns(), &[]);
+        others.pick(columns.columns(), &[40, 41, 42]);
+        others.pick(columns.columns(), &[5, 5, 6]);
+        for (place, i) in [40, 41, 42, 5, 5, 6].into_iter().enumerate() {
+            assert_eq!(others.row(place), row(i));
+        }
+        assert_eq!(others.len(), 6);
         some.resize(2);
         some.append(columns.columns().map(|column| &column[..1]));
         assert_eq!((some.len(), some.row(1), some.row(2)), (3, row(99), row(0)));

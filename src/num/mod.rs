@@ -22,7 +22,7 @@ mod steep;
 mod vector;
 
 pub use bent::Bent;
-pub use columns::Columns;
+pub use columns::{Columns, run};
 pub use dual::Dual;
 pub use interval::Interval;
 pub use lanes::{F32x32, F32x64, F64x32, Lanes};

@@ -140,7 +140,6 @@ impl Desk {
             rays,
             outcomes,
             light,
-            ..
         } = self;
         let whitted = &shared.whitted;
         whitted.meet_first(rays, &mut tally.census, outcomes);

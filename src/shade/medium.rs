@@ -214,6 +214,22 @@ mod tests {
     }
 
     #[test]
+    fn surroundings_are_those_that_were_pushed() {
+        let wet = Media::default().entering(medium(2, 1.333)).beyond;
+        let mut all = Surroundings::empty(2);
+        assert!(all.are_empty());
+        for media in [&wet, &wet, &Media::EMPTY, &wet] {
+            all.push(media);
+        }
+        let is_wet = [0, 1, 2, 3, 4, 5].map(|i| !all.at(i).is_empty());
+        assert_eq!(is_wet, [false, false, true, true, false, true]);
+        assert!(all.at(6).is_empty() && !all.are_empty());
+        all.clear();
+        all.push(&Media::EMPTY);
+        assert!(all.are_empty() && all.at(0).is_empty());
+    }
+
+    #[test]
     fn water_in_glass_bends_by_both_indices() {
         let (glass, water) = (medium(1, 1.5), medium(2, 1.333));
         let outer = Media::default().entering(glass);

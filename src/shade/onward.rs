@@ -7,7 +7,7 @@
 
 use super::fresnel::share;
 use super::highlight::GROUP;
-use super::lit::CHUNK;
+use super::lit::{CHUNK, Column};
 use super::looks::Looks;
 use super::medium::{Crossing, Media, Medium, Surroundings};
 use super::offset;
@@ -20,8 +20,6 @@ use crate::field::{Level, Task, run_at};
 use crate::trace::Footprint;
 use crate::trace::vector::place;
 use glam::DVec3;
-
-type Column = [f64; CHUNK];
 
 /// Up to [`CHUNK`] hits that send rays on, and those rays.
 pub struct Senders {

@@ -43,9 +43,8 @@ impl Wave {
         }
     }
 
-    /// Without its rays, for others of this depth.
-    fn cleared(mut self, depth: u32) -> Self {
-        self.depth = depth;
+    /// Without its rays, for others.
+    pub fn cleared(mut self) -> Self {
         self.rays.clear();
         self.paths.weight.resize(0);
         self.paths.sample.clear();
@@ -134,8 +133,9 @@ impl Waves {
                 None => 0,
             };
             if some == 0 {
-                let wave = spare.pop().unwrap_or_else(Wave::new);
-                self.waves.push(wave.cleared(self.depth));
+                let mut wave = spare.pop().unwrap_or_else(Wave::new);
+                wave.depth = self.depth;
+                self.waves.push(wave);
                 continue;
             }
             let (some, rest) = left.split_at(some);
@@ -160,10 +160,20 @@ mod tests {
 
     /// Adds as many rays, whose samples and media these are.
     fn add(waves: &mut Waves, count: u32, sample: impl Fn(u32) -> u32, media: &[Media]) {
+        add_to(waves, count, sample, (media, &mut Vec::new()));
+    }
+
+    /// The same, with waves that are done with.
+    fn add_to(
+        waves: &mut Waves,
+        count: u32,
+        sample: impl Fn(u32) -> u32,
+        (media, spare): (&[Media], &mut Vec<Wave>),
+    ) {
         let column: Vec<f64> = (0..count).map(f64::from).collect();
         let numbers: Vec<u32> = (0..count).collect();
         let columns = ([&column[..]; Rays::COLUMNS], [&column[..]; 3]);
-        waves.take((&numbers, &mut Vec::new()), columns, sample, |k| {
+        waves.take((&numbers, spare), columns, sample, |k| {
             &media[k as usize % media.len()]
         });
     }
@@ -197,16 +207,23 @@ mod tests {
         };
         let wet = Media::EMPTY.entering(water).beyond;
         let media = [Media::EMPTY, Media::EMPTY, wet.clone(), Media::EMPTY, wet];
+        // In a wave that held other rays.
+        let mut before = Waves::new(7);
+        add(&mut before, 9, |k| k + 100, &media[2..3]);
+        let mut spare: Vec<Wave> = before.waves.into_iter().map(Wave::cleared).collect();
         let mut waves = Waves::new(1);
         for count in [2, 5, 1, 10] {
-            add(&mut waves, count, |k| k, &media);
+            add_to(&mut waves, count, |k| k, (&media, &mut spare));
         }
+        assert!(spare.is_empty());
+        assert_eq!((waves.waves.len(), waves.waves[0].depth), (1, 1));
         let paths = &waves.waves[0].paths;
         let order = [2, 5, 1, 10].into_iter().flat_map(|count| 0..count);
         for (i, k) in order.enumerate() {
             let found = paths.media.at(i).innermost().map(|medium| medium.part);
             assert_eq!(found, [None, None, Some(3), None, Some(3)][k % 5]);
             assert_eq!(paths.weight(i), DVec3::splat(k as f64));
+            assert_eq!(paths.sample[i], k as u32);
         }
         assert_eq!(paths.len(), 18);
     }

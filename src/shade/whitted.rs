@@ -23,7 +23,7 @@ use super::shadow::settle;
 use super::wave::{Meetings, Paths, Wave, Waves};
 use super::{Census, Features, Surfaces};
 use crate::field::{Level, Task, run_at};
-use crate::num::Columns;
+use crate::num::{Columns, run};
 use crate::scene::{Fog, Scene, Sky};
 use crate::trace::{Outcomes, Rays, Verdict, Visibility, count};
 use glam::DVec3;
@@ -97,13 +97,13 @@ impl Task for Brighten<'_> {
     #[inline(always)]
     fn run(self) {
         let samples = self.samples;
-        let first = samples.first().map_or(0, |sample| *sample);
-        let others = samples.iter().zip(first..).filter(|(a, b)| **a != *b);
-        let is_run = others.count() == 0;
+        let run = run(samples);
         for (sums, light) in self.sums.into_iter().zip(self.light) {
-            if is_run {
-                let sums = &mut sums[first as usize..][..samples.len()];
-                sums.iter_mut().zip(light).for_each(|(sum, x)| *sum += x);
+            if let Some(run) = run.clone() {
+                sums[run]
+                    .iter_mut()
+                    .zip(light)
+                    .for_each(|(sum, x)| *sum += x);
             } else {
                 for (sample, x) in samples.iter().zip(light) {
                     sums[*sample as usize] += x;
@@ -276,7 +276,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             census.unknown_secondary += count(&found.verdict, Verdict::Unknown) as u64;
             let Wave { depth, rays, paths } = &mut wave;
             waiting.extend(self.shade(*depth, rays, paths, &found, &mut studio));
-            studio.memory.spare.push(wave);
+            studio.memory.spare.push(wave.cleared());
         }
         (memory.paths, memory.outcomes) = (first, found);
         MEMORY.with(|cell| cell.set(Some(memory)));

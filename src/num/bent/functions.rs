@@ -160,12 +160,17 @@ impl Number for Bent {
     /// The slope of the cubic is 0 at its ends, so beyond them only the bend 0 is added.
     fn smoothstep(self) -> Self {
         let (point, x) = (Interval::point, self.value());
+        let steep = self.steep.smoothstep();
+        if x.hi <= 0.0 || x.lo >= 1.0 {
+            return Self::new(steep, ZERO);
+        }
         let from_middle = x.clamp(point(0.0), point(1.0)) - point(0.5);
         let first = point(1.5) - point(6.0) * from_middle.square();
+        let first = common(Interval::new(0.0, 1.5), first);
         let second = point(-12.0) * from_middle;
         let is_within = x.lo >= 0.0 && x.hi <= 1.0;
         let second = if is_within { second } else { second.hull(ZERO) };
-        self.smooth(self.steep.smoothstep(), first, second)
+        self.smooth(steep, first, second)
     }
 
     fn hypot(self, o: Self) -> Self {
@@ -261,7 +266,7 @@ impl Number for Bent {
         let parts = [x, y, z];
         let [u, v, w] = parts.map(|q| q.value());
         let most = lattice.bend();
-        if most == f64::INFINITY || steep.value() == Interval::ENTIRE {
+        if most == f64::INFINITY {
             return Self::unknown(steep);
         }
         let gradient = Interval::lattice_slope(lattice, u, v, w);

@@ -175,9 +175,8 @@ fn functions_of_two_numbers_bend_no_more() {
             }
         }
         println!("{name}: {seen:?}");
-        let is_known = !["noise", "voronoi"].contains(&name);
         assert!(
-            !is_known || seen.low + seen.high > REGIONS / 4,
+            name == "voronoi" || seen.low + seen.high > REGIONS / 4,
             "{name}: {seen:?}"
         );
     }
@@ -291,6 +290,34 @@ fn a_wave_in_two_directions_bends_as_its_amplitude_allows() {
     let most = (-wave.low()).max(wave.high());
     // 16 along the axes and the diagonals; the rules add 16 for each factor and 16 for both.
     assert!((16.0..=48.0 * (1.0 + 1e-12)).contains(&most), "{wave:?}");
+}
+
+/// What is held is a constant, and where only an end is touched the slope there is 0.
+#[test]
+fn smoothsteps_bend_between_their_ends_alone() {
+    let [x, y, _] = variables([
+        Interval::new(-1.0, 0.3),
+        Interval::new(-1.0, 1.0),
+        Interval::new(0.0, 1.0),
+    ]);
+    assert_bends((y.abs() + Bent::splat(2.0)).smoothstep(), [0.0, 0.0]);
+    assert_bends((y.floor() - Bent::splat(7.0)).smoothstep(), [0.0, 0.0]);
+    assert_bends(x.smoothstep(), [0.0, 6.0]);
+    assert!(x.hypot(y).smoothstep().low().is_finite());
+}
+
+/// The largest bend of noise times the square of how fast its point moves.
+#[test]
+fn noise_bends_with_the_square_of_its_frequency() {
+    let noise = |[x, y, z]: [Bent; 3]| Bent::lattice(Lattice::Noise, x, y, z);
+    let point = variables([Interval::new(-3.0, 5.0); 3]);
+    let most = Lattice::Noise.bend();
+    assert_bends(noise(point), [-most, most]);
+    let finer = point.map(|q| q * Bent::splat(4.0));
+    assert_bends(noise(finer), [-16.0 * most, 16.0 * most]);
+    // A kink on the way has any bend.
+    let [x, y, z] = point;
+    assert_bends(noise([x.abs(), y, z]), [f64::NEG_INFINITY, f64::INFINITY]);
 }
 
 #[test]

@@ -17,7 +17,8 @@ entry! {
         d: [f64; 3], Vector3, Range::ANY, default [-0.8, 0.0, -0.6];
     }
     derived {
-        halves: [Triangle; 2] = [Triangle::new(a, b, c), Triangle::new(a, c, d)];
+        // In a box: the largest primitive is what every node has room for.
+        halves: Box<[Triangle; 2]> = Box::new([Triangle::new(a, b, c), Triangle::new(a, c, d)]);
     }
     source "the nearer of two triangles (Quilez, distance functions: triangle, quad); a distance, so its constant is 1"
     example "quad([-0.8, -0.3, 0.6], [0.8, -0.3, 0.6], [0.8, 0.3, -0.6], [-0.8, 0.3, -0.6])"
@@ -33,7 +34,7 @@ impl Quad {
 impl Primitive for Quad {
     #[inline(always)]
     fn distance<N: Number>(&self, p: &Vec3<N>) -> N {
-        let [first, second] = &self.halves;
+        let [first, second] = &*self.halves;
         first.distance(p).min(second.distance(p))
     }
 

@@ -74,9 +74,13 @@ impl Brush {
                 Shape::Modifier(_, child) => std::slice::from_ref(child),
                 Shape::Combination(_, children) => &children[..],
             };
+            let is_moved =
+                matches!(node.shape(), Shape::Modifier(modifier, _) if asks_once(modifier));
             for child in asked {
-                let compiled = || compile_wide(child, level);
-                fields.entry(address(child)).or_insert_with(compiled);
+                if !is_moved {
+                    let compiled = || compile_wide(child, level);
+                    fields.entry(address(child)).or_insert_with(compiled);
+                }
                 open.push(child);
             }
         }
@@ -84,7 +88,9 @@ impl Brush {
     }
 
     /// Gives `each` the shares at these points, at most 32, one after the other, with their numbers: as [`shares`], to the bit.
-    /// The node is that of the brush.
+    ///
+    /// # Panics
+    /// If the node is not that of the brush, or there are no points.
     pub fn shares<'a>(
         &self,
         node: &'a Node,
@@ -110,10 +116,7 @@ impl Brush {
 
 impl Values<F64x32> for Brush {
     fn value(&self, node: &Node, p: &Vec3<F64x32>) -> F64x32 {
-        match self.fields.get(&address(node)) {
-            Some(field) => field(p),
-            None => node.evaluate(p),
-        }
+        self.fields[&address(node)](p)
     }
 
     fn counts(&self, weight: F64x32) -> bool {
@@ -249,6 +252,11 @@ pub(super) fn weights<N: Number>(
     weights
 }
 
+/// Whether a modifier asks its child at one point, whatever is there: what only moves, turns and scales does.
+fn asks_once(modifier: &AnyModifier) -> bool {
+    with_modifier!(modifier, m => m.similarity()).is_some()
+}
+
 /// The point at which a modifier asks its child; of several, the one where the child's field is smallest.
 pub(super) fn child_point<N: Number>(
     values: &impl Values<N>,
@@ -257,8 +265,7 @@ pub(super) fn child_point<N: Number>(
     p: Vec3<N>,
 ) -> Vec3<N> {
     let nearest = Cell::new((N::splat(f64::INFINITY), p));
-    // What only moves and turns asks at one point, whatever is there.
-    let asks_once = with_modifier!(modifier, m => m.similarity()).is_some();
+    let asks_once = asks_once(modifier);
     let ask = |q: &Vec3<N>| {
         let value = if asks_once {
             N::splat(0.0)

@@ -77,6 +77,7 @@ pub fn unary<N: Number>() -> Vec<(&'static str, Unary<N>)> {
         ("powi 6", |x| x.powi(6)),
         ("powi -1", |x| x.powi(-1)),
         ("powi -2", |x| x.powi(-2)),
+        ("ease", |x| x.clamp(N::splat(0.0), N::splat(1.0)).ease()),
         ("smoothstep", N::smoothstep),
         ("ease beyond", N::ease),
         ("clamp", |x| x.clamp(N::splat(-0.5), N::splat(2.0))),

@@ -54,7 +54,8 @@ impl Tracer for CameraTracer {
 fn record(scene: &Scene, hits: &Hits) -> CameraRecord {
     let steps = hits.steps();
     let tiles = Tile::all(scene.settings.size, RenderOptions::default().tile);
-    let pixels: Vec<[u32; 2]> = tiles.iter().flat_map(Tile::blocks).flatten().collect();
+    let blocks = tiles.iter().flat_map(Tile::blocks);
+    let pixels: Vec<[u32; 2]> = blocks.flat_map(|block| block.pixels().to_vec()).collect();
     let row_first = |[x, y]: [u32; 2]| [y, x];
     let first = |is_meant: &dyn Fn(usize) -> bool| {
         let numbered = pixels.iter().enumerate();

@@ -1,6 +1,7 @@
 //! What the samples of a block of pixels add up to: only what is asked for.
 
 use super::Channel;
+use super::block::Block;
 use super::film::Patch;
 use crate::num::Columns;
 use crate::shade::Received;
@@ -55,7 +56,8 @@ impl Exposure {
         begin(&mut self.is_unknown, pixels, false);
         for sum in &mut self.sums {
             match sum {
-                Sum::Beauty(sums) | Sum::Color(sums) => sums.fill(pixels, 0.0),
+                // The first sample makes room.
+                Sum::Beauty(sums) | Sum::Color(sums) => sums.resize(0),
                 Sum::Depth(depths) => begin(depths, pixels, far),
                 Sum::Normal(normals) => begin(normals, pixels, (DVec3::ZERO, far)),
                 Sum::Steps(sums) | Sum::Evaluations(sums) => begin(sums, pixels, 0),
@@ -133,24 +135,24 @@ impl Exposure {
             .count()
     }
 
-    /// Records what that many samples of these pixels add up to.
-    pub fn develop(&self, samples: u32, pixels: &[[u32; 2]], patch: &mut Patch) {
+    /// Records what that many samples of the pixels of a block add up to.
+    pub fn develop(&self, samples: u32, block: &Block, patch: &mut Patch) {
         let n = f64::from(samples);
         let mean = |sum: f64| (if samples == 1 { sum } else { sum / n }) as f32;
         for (k, sum) in self.sums.iter().enumerate() {
             match sum {
                 Sum::Beauty(sums) | Sum::Color(sums) => {
-                    let [r, g, b] = sums.columns().map(|column| &column[..pixels.len()]);
-                    patch.record(k, pixels, |i| [mean(r[i]), mean(g[i]), mean(b[i])]);
+                    let [r, g, b] = sums.columns().map(|column| &column[..block.pixels().len()]);
+                    patch.record(k, block, |i| [mean(r[i]), mean(g[i]), mean(b[i])]);
                 }
-                Sum::Depth(depths) => patch.record(k, pixels, |i| [depths[i] as f32]),
+                Sum::Depth(depths) => patch.record(k, block, |i| [depths[i] as f32]),
                 Sum::Normal(normals) => {
-                    patch.record(k, pixels, |i| normals[i].0.as_vec3().to_array());
+                    patch.record(k, block, |i| normals[i].0.as_vec3().to_array());
                 }
                 Sum::Steps(sums) | Sum::Evaluations(sums) => {
-                    patch.record(k, pixels, |i| [mean(sums[i] as f64)]);
+                    patch.record(k, block, |i| [mean(sums[i] as f64)]);
                 }
-                Sum::Verdict(hits) => patch.record(k, pixels, |i| {
+                Sum::Verdict(hits) => patch.record(k, block, |i| {
                     let verdict = match (self.is_unknown[i], hits[i]) {
                         (true, _) => 2.0,
                         (false, true) => 1.0,
@@ -158,7 +160,7 @@ impl Exposure {
                     };
                     [verdict]
                 }),
-                Sum::Object(objects) => patch.record(k, pixels, |i| {
+                Sum::Object(objects) => patch.record(k, block, |i| {
                     let (part, depth) = objects[i];
                     let is_hit = depth < f64::INFINITY;
                     [if is_hit { part as f32 } else { -1.0 }]
@@ -180,8 +182,11 @@ fn each<T>(sums: &mut [T], mut change: impl FnMut(usize, &mut T)) {
         .for_each(|(i, sum)| change(i, sum));
 }
 
-/// Adds columns to others.
+/// Adds columns to others, of which there may be none yet.
 fn add(sums: &mut Columns<3>, more: &Columns<3>) {
+    if sums.is_empty() {
+        return sums.append(more.columns());
+    }
     for (sum, more) in sums.columns_mut().into_iter().zip(more.columns()) {
         sum.iter_mut().zip(more).for_each(|(sum, x)| *sum += x);
     }

@@ -1,6 +1,7 @@
 //! Film: what a rendering recorded, channel by channel, in rows from the top.
 
 use super::Channel;
+use super::block::Block;
 
 /// One channel of a film.
 #[derive(Clone, Debug, PartialEq)]
@@ -114,22 +115,41 @@ pub(super) struct Patch<'a> {
 }
 
 impl Patch<'_> {
-    /// Records the `N` numbers of channel number `k`, counted from 0, for some pixels, given by column and row of the film.
+    /// Records the `N` numbers of channel number `k`, counted from 0, for the pixels of a block.
     ///
     /// # Panics
     /// If a pixel is not on the patch.
     pub fn record<const N: usize>(
         &mut self,
         k: usize,
-        pixels: &[[u32; 2]],
+        block: &Block,
         numbers: impl Fn(usize) -> [f32; N],
     ) {
-        let [left, top] = self.corner;
-        let rows = &mut self.planes[k];
-        for (i, [column, row]) in pixels.iter().enumerate() {
-            let first = N * (column - left) as usize;
-            rows[(row - top) as usize][first..first + N].copy_from_slice(&numbers(i));
+        if let Some(rows) = block.rows() {
+            for (first, places) in rows {
+                let row = self.piece::<N>(k, first, places.len());
+                let row = row.as_chunks_mut().0;
+                for (pixel, place) in row.iter_mut().zip(places) {
+                    *pixel = numbers(usize::from(*place));
+                }
+            }
+            return;
         }
+        for (i, pixel) in block.pixels().iter().enumerate() {
+            self.piece::<N>(k, *pixel, 1).copy_from_slice(&numbers(i));
+        }
+    }
+
+    /// The `N` numbers of each of so many pixels of a row, in channel number `k`.
+    fn piece<const N: usize>(
+        &mut self,
+        k: usize,
+        [column, row]: [u32; 2],
+        pixels: usize,
+    ) -> &mut [f32] {
+        let [left, top] = self.corner;
+        let row = &mut self.planes[k][(row - top) as usize];
+        &mut row[N * (column - left) as usize..][..N * pixels]
     }
 }
 
@@ -150,8 +170,9 @@ mod tests {
                 let pixels = rows.flat_map(|j| columns.clone().map(move |i| [i, j]));
                 let pixels: Vec<[u32; 2]> = pixels.collect();
                 let number = |k: usize| (pixels[k][0] + 10 * pixels[k][1]) as f32 + 1.0;
-                patch.record(0, &pixels, |k| [number(k), 0.0, -number(k)]);
-                patch.record(1, &pixels, |k| [2.0 * number(k)]);
+                let block = Block::from(pixels.clone());
+                patch.record(0, &block, |k| [number(k), 0.0, -number(k)]);
+                patch.record(1, &block, |k| [2.0 * number(k)]);
             }
             for (i, j) in (0..height).flat_map(|j| (0..width).map(move |i| (i, j))) {
                 let number = (i + 10 * j) as f32 + 1.0;

@@ -30,7 +30,7 @@ impl Hits {
         let trace = |tile: &Tile| {
             let mut hits = Self::default();
             for block in tile.blocks() {
-                let rays = view.rays(&block);
+                let rays = view.rays(block.pixels());
                 let outcomes = whitted.first_hits(&rays, &mut hits.census);
                 hits.outcomes.extend(outcomes.iter());
                 hits.rays.extend(rays.iter());

@@ -1,5 +1,6 @@
 //! Floor 6: camera to film: rays, tiles, threads, statistics.
 
+mod block;
 mod camera_tracer;
 mod channel;
 mod effort;

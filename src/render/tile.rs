@@ -1,5 +1,6 @@
 //! One tile of the picture, from its rays to its pixels.
 
+use super::block::{BLOCK, Block};
 use super::exposure::Exposure;
 use super::film::Patch;
 use super::statistics::Tally;
@@ -18,10 +19,6 @@ pub struct Shared<'a, S: Surfaces + ?Sized> {
     /// What is recorded.
     pub channels: &'a [Channel],
 }
-
-/// The side of a block, in pixels: the rays of a block are traced together, with all that follows from them, so that
-/// what they find does not depend on how blocks are put together to tiles.
-const BLOCK: u32 = 16;
 
 /// A square of blocks.
 #[derive(Clone, Copy, Debug)]
@@ -47,10 +44,15 @@ impl Tile {
         [0, 1].map(|axis| self.end[axis] - self.corner[axis])
     }
 
-    /// The pixels of each block: columns and rows, in the order in which they are traced.
-    pub fn blocks(&self) -> impl Iterator<Item = Vec<[u32; 2]>> {
+    /// The upper left pixels of its blocks.
+    fn corners(&self) -> impl Iterator<Item = [u32; 2]> + use<> {
+        corners(self.corner, self.end, BLOCK)
+    }
+
+    /// Its blocks, in the order in which they are traced.
+    pub fn blocks(&self) -> impl Iterator<Item = Block> + use<> {
         let end = self.end;
-        corners(self.corner, end, BLOCK).map(move |corner| block(corner, end))
+        self.corners().map(move |corner| Block::at(corner, end))
     }
 
     /// Records the tile on its patch of the film; gives what it cost.
@@ -60,10 +62,12 @@ impl Tile {
         let samples = shared.settings.samples.max(1);
         let mut desk = DESK.with(Cell::take).unwrap_or_default();
         let mut exposure = Exposure::new(shared.channels);
-        for block in self.blocks() {
-            exposure.reset(block.len());
+        let mut block = Block::default();
+        for corner in self.corners() {
+            block.move_to(corner, self.end);
+            exposure.reset(block.pixels().len());
             for sample in 0..samples {
-                desk.aim(shared, &block, sample);
+                desk.aim(shared, block.pixels(), sample);
                 desk.expose(shared, &mut exposure, &mut tally);
             }
             tally.unknown_pixels += exposure.unknown() as u64;
@@ -79,34 +83,6 @@ impl Tile {
 fn corners(from: [u32; 2], to: [u32; 2], side: u32) -> impl Iterator<Item = [u32; 2]> {
     let steps = move |i: usize| (from[i]..to[i]).step_by(side as usize);
     steps(1).flat_map(move |y| steps(0).map(move |x| [x, y]))
-}
-
-/// The places in a block along Morton's curve: each run of 64 is a square of 8 x 8, so that what is traced together lies
-/// together.
-const ORDER: [[u8; 2]; (BLOCK * BLOCK) as usize] = {
-    let mut order = [[0; 2]; (BLOCK * BLOCK) as usize];
-    let mut code = 0;
-    while code < order.len() {
-        let mut bit = 0;
-        while bit < BLOCK.ilog2() {
-            order[code][0] |= ((code >> (2 * bit) & 1) << bit) as u8;
-            order[code][1] |= ((code >> (2 * bit + 1) & 1) << bit) as u8;
-            bit += 1;
-        }
-        code += 1;
-    }
-    order
-};
-
-/// The pixels of a block, those beyond `end` left out.
-fn block(corner: [u32; 2], end: [u32; 2]) -> Vec<[u32; 2]> {
-    let [left, top] = corner;
-    let pixel = |[i, j]: &[u8; 2]| [left + u32::from(*i), top + u32::from(*j)];
-    let mut pixels: Vec<[u32; 2]> = ORDER.iter().map(pixel).collect();
-    if left + BLOCK > end[0] || top + BLOCK > end[1] {
-        pixels.retain(|[i, j]| *i < end[0] && *j < end[1]);
-    }
-    pixels
 }
 
 thread_local! {
@@ -166,7 +142,7 @@ mod tests {
             for side in [1, 8, 33, 64, u32::MAX] {
                 let tiles = Tile::all(size, side);
                 let blocks = tiles.iter().flat_map(Tile::blocks);
-                let pixels: Vec<_> = blocks.flatten().collect();
+                let pixels: Vec<_> = blocks.flat_map(|block| block.pixels().to_vec()).collect();
                 let distinct: HashSet<_> = pixels.iter().copied().collect();
                 assert_eq!(pixels.len(), (size[0] * size[1]) as usize);
                 assert_eq!(distinct.len(), pixels.len());
@@ -181,7 +157,7 @@ mod tests {
             .blocks()
             .collect::<Vec<_>>()
             .iter()
-            .flat_map(|block| block.chunks(64))
+            .flat_map(|block| block.pixels().chunks(64))
         {
             let squares: HashSet<_> = run.iter().map(|p| [p[0] / 8, p[1] / 8]).collect();
             assert_eq!((run.len(), squares.len()), (64, 1));
@@ -195,6 +171,7 @@ mod tests {
             tiles
                 .into_iter()
                 .flat_map(|tile| tile.blocks().collect::<Vec<_>>())
+                .map(|block| block.pixels().to_vec())
                 .collect::<HashSet<_>>()
         };
         assert!(

@@ -1,5 +1,6 @@
 //! What a reference says, as bytes, so that it can be kept; to the bit.
 
+use super::block::Block;
 use super::{Channel, Film, Hits, Truth};
 use crate::shade::Census;
 use crate::trace::{Footprint, Outcome, Ray, Verdict};
@@ -156,7 +157,7 @@ fn picture(bytes: &[u8]) -> Option<Film> {
     let values: Vec<f32> = values.iter().map(|b| f32::from_le_bytes(*b)).collect();
     let rows = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
     let mut film = Film::new(size, &[Channel::Beauty]);
-    let pixels: Vec<[u32; 2]> = rows.collect();
+    let pixels = Block::from(rows.collect::<Vec<_>>());
     for patch in &mut film.patches(size) {
         patch.record::<3>(0, &pixels, |i| [0, 1, 2].map(|k| values[3 * i + k]));
     }

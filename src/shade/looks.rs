@@ -1,5 +1,6 @@
 //! The surfaces that the rays of a wave hit.
 
+use super::highlight::GROUP;
 use super::lighting::{BACKDROP, LIGHTING, Lighting, row};
 use super::palette::Palette;
 use super::{Surface, sky};
@@ -25,6 +26,8 @@ pub struct Looks {
     pub terms: Columns<LIGHTING>,
     /// Rays whose surfaces have patterns, with the numbers of their materials.
     pub varied: Vec<(u32, u32)>,
+    /// Of which palette and which numbers the terms are that were written last, but for those of the sky and of patterns.
+    written: (u64, Vec<u32>),
 }
 
 impl Looks {
@@ -75,8 +78,18 @@ impl Looks {
         (palette.len() + self.own.len() - 1) as u32
     }
 
-    /// Writes what lighting reads of each surface.
+    /// Writes what lighting reads of each surface. Neighbouring blocks often show the same.
     pub fn write_terms(&mut self, palette: &Palette) {
+        let (of, numbers) = &mut self.written;
+        let is_written = *of == palette.serial() && *numbers == self.numbers;
+        if is_written && self.own.is_empty() {
+            return;
+        }
+        *of = palette.serial();
+        numbers.clear();
+        if self.own.is_empty() {
+            numbers.extend_from_slice(&self.numbers);
+        }
         let mut terms = mem::take(&mut self.terms);
         terms.resize(self.numbers.len());
         let mut columns = terms.columns_mut();
@@ -102,17 +115,24 @@ impl Task for Backdrop<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let numbers = &self.looks.numbers[..];
-        let n = numbers.len();
-        let [x, y, z] = self.rays.direction().map(|column| &column[..n]);
+        let n = self.looks.numbers.len();
+        let direction = self.rays.direction();
         let [r, g, b, ..] = self.looks.terms.columns_mut();
-        let (r, g, b) = (&mut r[..n], &mut g[..n], &mut b[..n]);
-        for i in 0..n {
-            let light = sky::radiance(self.sky, DVec3::new(x[i], y[i], z[i]));
-            let is_sky = numbers[i] == NONE;
-            r[i] = if is_sky { light.x } else { r[i] };
-            g[i] = if is_sky { light.y } else { g[i] };
-            b[i] = if is_sky { light.z } else { b[i] };
+        for first in (0..n).step_by(GROUP) {
+            let some = first..n.min(first + GROUP);
+            let numbers = &self.looks.numbers[some.clone()];
+            if numbers.iter().filter(|number| **number == NONE).count() == 0 {
+                continue;
+            }
+            let [x, y, z] = direction.map(|column| &column[some.clone()]);
+            let (r, g, b) = (&mut r[some.clone()], &mut g[some.clone()], &mut b[some]);
+            for i in 0..numbers.len() {
+                let light = sky::radiance(self.sky, DVec3::new(x[i], y[i], z[i]));
+                let is_sky = numbers[i] == NONE;
+                r[i] = if is_sky { light.x } else { r[i] };
+                g[i] = if is_sky { light.y } else { g[i] };
+                b[i] = if is_sky { light.z } else { b[i] };
+            }
         }
     }
 }

@@ -181,8 +181,16 @@ impl Surroundings {
 
     /// Adds those of a ray.
     pub fn push(&mut self, media: &Media) {
+        self.push_all(media, 1);
+    }
+
+    /// Adds those of so many rays, all of them in the same.
+    pub fn push_all(&mut self, media: &Media, rays: usize) {
+        if rays == 0 {
+            return;
+        }
         let before = self.count;
-        self.count += 1;
+        self.count += rays;
         match self.runs.last_mut() {
             Some((last, end)) if last.is_same(media) => *end = self.count,
             None if media.is_empty() => {}
@@ -218,7 +226,9 @@ mod tests {
         let wet = Media::default().entering(medium(2, 1.333)).beyond;
         let mut all = Surroundings::empty(2);
         assert!(all.are_empty());
-        for media in [&wet, &wet, &Media::EMPTY, &wet] {
+        all.push_all(&Media::EMPTY, 0);
+        all.push_all(&wet, 2);
+        for media in [&Media::EMPTY, &wet] {
             all.push(media);
         }
         let is_wet = [0, 1, 2, 3, 4, 5].map(|i| !all.at(i).is_empty());

@@ -159,24 +159,29 @@ impl Senders {
             let Some(surface) = surface.filter(|surface| surface.sends_on()) else {
                 continue;
             };
+            let range = range.start.max(first)..range.end;
+            let from = self.numbers.len();
+            let some = range.start..range.end.min(range.start + CHUNK - from);
+            self.numbers.extend(some.start as u32..some.end as u32);
+            let to = self.numbers.len();
+            self.reflect[from..to].fill(surface.reflect);
+            self.refract[from..to].fill(surface.refract);
+            self.fresnel[from..to].fill(surface.fresnel);
             // Only what lets light through, or reflects by how it would, asks for media.
-            let bends = surface.refract != 0.0 || surface.fresnel != 0.0;
-            for i in range.start.max(first)..range.end {
-                let k = self.numbers.len();
-                if k == CHUNK {
-                    return i;
-                }
-                self.numbers.push(i as u32);
-                self.reflect[k] = surface.reflect;
-                self.refract[k] = surface.refract;
-                self.fresnel[k] = surface.fresnel;
-                let (mut indices, mut beyond) = ([1.0; 2], &Media::EMPTY);
-                if bends {
+            if surface.refract != 0.0 || surface.fresnel != 0.0 {
+                for (k, i) in (from..to).zip(some.clone()) {
                     let crossing = crossing(wave, i, surface, &mut last);
-                    (indices, beyond) = ([crossing.n1, crossing.n2], &crossing.beyond);
+                    (self.indices[0][k], self.indices[1][k]) = (crossing.n1, crossing.n2);
+                    self.beyond.push(&crossing.beyond);
                 }
-                (self.indices[0][k], self.indices[1][k]) = (indices[0], indices[1]);
-                self.beyond.push(beyond);
+            } else {
+                self.indices
+                    .iter_mut()
+                    .for_each(|indices| indices[from..to].fill(1.0));
+                self.beyond.push_all(&Media::EMPTY, some.len());
+            }
+            if some.end < range.end {
+                return some.end;
             }
         }
         wave.rays.len()
@@ -193,7 +198,7 @@ impl Senders {
         let (rays, outcomes) = (wave.rays, wave.outcomes);
         for (columns, sources) in [
             (&mut self.incident, rays.direction()),
-            (&mut self.weight, wave.paths.weight.columns()),
+            (&mut self.weight, wave.paths.weights().columns()),
             (&mut self.point, outcomes.point()),
             (&mut self.outward, outcomes.normal()),
         ] {

@@ -13,6 +13,7 @@ use glam::DVec3;
 use std::mem;
 use std::ops::Range;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// How many points are evaluated at a time.
 const WIDTH: usize = F64x32::WIDTH;
@@ -40,7 +41,11 @@ struct Pattern {
 /// The materials of a scene.
 pub struct Palette {
     swatches: Vec<Swatch>,
+    serial: u64,
 }
+
+/// How many palettes there were.
+static PALETTES: AtomicU64 = AtomicU64::new(0);
 
 impl Palette {
     /// How many there are.
@@ -75,11 +80,35 @@ impl Palette {
         };
         Self {
             swatches: materials.iter().map(swatch).collect(),
+            serial: PALETTES.fetch_add(1, Ordering::Relaxed) + 1,
         }
     }
 
-    /// Finds the surfaces that rays with these outcomes hit.
+    /// A number that no other palette has; not 0.
+    pub fn serial(&self) -> u64 {
+        self.serial
+    }
+
+    /// Finds the surfaces that rays with these outcomes hit, with what lighting reads of them.
     pub fn look<S: Surfaces + ?Sized>(&self, surfaces: &S, outcomes: &Outcomes, looks: &mut Looks) {
+        self.number(surfaces, outcomes, looks);
+        looks.write_terms(self);
+        self.paint_varied(looks, outcomes, true);
+    }
+
+    /// The same for rays that only pass: without what lighting reads.
+    pub fn look_through<S: Surfaces + ?Sized>(
+        &self,
+        surfaces: &S,
+        outcomes: &Outcomes,
+        looks: &mut Looks,
+    ) {
+        self.number(surfaces, outcomes, looks);
+        self.paint_varied(looks, outcomes, false);
+    }
+
+    /// Numbers the surfaces that rays hit.
+    fn number<S: Surfaces + ?Sized>(&self, surfaces: &S, outcomes: &Outcomes, looks: &mut Looks) {
         looks.own.clear();
         looks.numbers.clear();
         looks.varied.clear();
@@ -89,12 +118,19 @@ impl Palette {
             self.look_at(surfaces, outcomes, first..end, looks);
             first = end;
         }
-        looks.write_terms(self);
+    }
+
+    /// Gives the rays whose surfaces have patterns theirs; with what lighting reads of them only if they are `lit`.
+    fn paint_varied(&self, looks: &mut Looks, outcomes: &Outcomes, lit: bool) {
         let mut varied = mem::take(&mut looks.varied);
         varied.sort_unstable();
         for same in varied.chunk_by(|(a, _), (b, _)| a == b) {
+            let number = same[0].0 as usize;
+            if !lit && self.swatches[number].is_only_lit {
+                continue;
+            }
             for some in same.chunks(WIDTH) {
-                self.paint(looks, same[0].0 as usize, outcomes, some);
+                self.paint(looks, number, outcomes, (some, lit));
             }
         }
         looks.varied = varied;
@@ -149,8 +185,15 @@ impl Palette {
         looks.numbers.resize(end, number);
     }
 
-    /// Gives these rays, at most [`WIDTH`], their surfaces, all of one material with patterns.
-    fn paint(&self, looks: &mut Looks, number: usize, outcomes: &Outcomes, rays: &[(u32, u32)]) {
+    /// Gives these rays, at most [`WIDTH`], their surfaces, all of one material with patterns; with what lighting reads of
+    /// them only if they are lit.
+    fn paint(
+        &self,
+        looks: &mut Looks,
+        number: usize,
+        outcomes: &Outcomes,
+        (rays, lit): (&[(u32, u32)], bool),
+    ) {
         let swatch = &self.swatches[number];
         let axis = |axis: usize| {
             let column = outcomes.point()[axis];
@@ -193,9 +236,11 @@ impl Palette {
                 lane,
             };
             let surface = Surface::of_terms(&swatch.material, &mut known);
-            let row = row(&surface);
-            for (column, number) in looks.terms.columns_mut().into_iter().zip(row) {
-                column[*ray as usize] = number;
+            if lit {
+                let row = row(&surface);
+                for (column, number) in looks.terms.columns_mut().into_iter().zip(row) {
+                    column[*ray as usize] = number;
+                }
             }
             looks.numbers[*ray as usize] = looks.add(self, surface);
         }

@@ -41,11 +41,11 @@ impl Passage {
 pub fn settle<S: Surfaces + ?Sized>(
     seen: (&S, &Palette),
     features: &Features,
-    gains: &mut Gains,
+    (gains, met): (&mut Gains, &mut Boundaries),
     (census, level): (&mut Census, Level),
 ) -> Vec<u32> {
     if features.tinted_shadows {
-        walk_all(seen, gains, census)
+        walk_all(seen, (gains, met), census)
     } else if features.opaque_shadows {
         stop(seen.0, gains, (census, level))
     } else {
@@ -113,11 +113,11 @@ impl Task for Darken<'_> {
 /// Weakens what comes through tinted surfaces.
 fn walk_all<S: Surfaces + ?Sized>(
     seen: (&S, &Palette),
-    gains: &mut Gains,
+    (gains, met): (&mut Gains, &mut Boundaries),
     census: &mut Census,
 ) -> Vec<u32> {
     let mut passages = vec![Passage::CLEAR; gains.rays.len()];
-    walk(seen, gains, &mut passages, census);
+    walk(seen, (gains, met), &mut passages, census);
     for (k, channel) in gains.radiance.columns_mut().into_iter().enumerate() {
         for (gained, passage) in channel.iter_mut().zip(&passages) {
             *gained *= passage.share[k];
@@ -138,7 +138,7 @@ struct Walkers {
 
 /// What shadow rays meet at a boundary; memory that is used again for the next.
 #[derive(Default)]
-struct Boundaries {
+pub struct Boundaries {
     outcomes: Outcomes,
     looks: Looks,
 }
@@ -146,23 +146,22 @@ struct Boundaries {
 /// Follows the rays through tinted surfaces, all of them one boundary at a time.
 fn walk<S: Surfaces + ?Sized>(
     seen: (&S, &Palette),
-    gains: &Gains,
+    (gains, met): (&Gains, &mut Boundaries),
     passages: &mut [Passage],
     census: &mut Census,
 ) {
     if gains.rays.is_empty() {
         return;
     }
-    let mut met = Boundaries::default();
     let indices: Vec<u32> = (0..gains.rays.len() as u32).collect();
     let all = (&gains.rays, &gains.media, &indices[..]);
-    let mut walkers = step(seen, all, &mut met, passages, census);
+    let mut walkers = step(seen, all, met, passages, census);
     for _ in 1..MAX_CROSSINGS {
         if walkers.rays.is_empty() {
             return;
         }
         let all = (&walkers.rays, &walkers.media, &walkers.indices[..]);
-        walkers = step(seen, all, &mut met, passages, census);
+        walkers = step(seen, all, met, passages, census);
     }
     for index in walkers.indices {
         census.unknown_secondary += 1;
@@ -190,7 +189,7 @@ fn step<S: Surfaces + ?Sized>(
     );
     census.evaluations += sum(&outcomes.evaluations);
     census.unknown_secondary += count(&outcomes.verdict, Verdict::Unknown) as u64;
-    palette.look(surfaces, outcomes, looks);
+    palette.look_through(surfaces, outcomes, looks);
     let mut further = Walkers::default();
     for (range, surface) in looks.runs(palette) {
         match surface {

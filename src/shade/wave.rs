@@ -15,11 +15,13 @@ const USUAL_WAVE: usize = 256;
 #[derive(Clone, Debug, Default)]
 pub struct Paths {
     /// The shares of their radiance that arrive in the picture, by channel.
-    pub weight: Columns<3>,
+    weight: Columns<3>,
     /// Which camera rays they belong to.
     pub sample: Vec<u32>,
     /// What they travel in.
     pub media: Surroundings,
+    /// Whether they are as [`Paths::start`] made them.
+    is_fresh: bool,
 }
 
 /// Rays of one depth, and what each of them carries.
@@ -56,6 +58,10 @@ impl Wave {
 impl Paths {
     /// Makes them those of that many camera rays, in empty space.
     pub fn start(&mut self, rays: usize) {
+        if self.is_fresh && self.len() == rays {
+            return;
+        }
+        self.is_fresh = true;
         self.weight.fill(rays, 1.0);
         self.sample.clear();
         self.sample.extend(0..rays as u32);
@@ -68,12 +74,24 @@ impl Paths {
             weight: Columns::with_capacity(count),
             sample: Vec::with_capacity(count),
             media: Surroundings::default(),
+            is_fresh: false,
         }
+    }
+
+    /// The weights, to be changed, by channel.
+    pub fn weight_mut(&mut self) -> [&mut [f64]; 3] {
+        self.is_fresh = false;
+        self.weight.columns_mut()
     }
 
     /// How many there are.
     pub fn len(&self) -> usize {
         self.sample.len()
+    }
+
+    /// The weights, by channel.
+    pub fn weights(&self) -> &Columns<3> {
+        &self.weight
     }
 
     /// The weight of ray number `i`.

@@ -19,7 +19,8 @@ use super::lit::{CHUNK, Face, Lit, Shine};
 use super::looks::Looks;
 use super::onward::Senders;
 use super::palette::Palette;
-use super::shadow::settle;
+use super::shadow::{Boundaries, settle};
+use super::sky::radiance;
 use super::wave::{Meetings, Paths, Wave, Waves};
 use super::{Census, Features, Surfaces};
 use crate::field::{Level, Task, run_at};
@@ -121,6 +122,8 @@ struct Memory {
     glow: Columns<3>,
     /// What it gains from each lamp.
     gains: Vec<Gains>,
+    /// What shadow rays meet.
+    met: Boundaries,
     /// The hits that send rays on.
     senders: Box<Senders>,
     /// What camera rays carry.
@@ -163,6 +166,34 @@ impl Task for Glow<'_> {
             for i in 0..n {
                 glow[i] = weight[i] * (color[i] * ambient[i]);
             }
+        }
+    }
+}
+
+/// Finds what the rays of a wave show of the sky, all of which hit nothing.
+struct Above<'a> {
+    sky: &'a Sky,
+    direction: [&'a [f64]; 3],
+    weight: &'a Columns<3>,
+    glow: &'a mut Columns<3>,
+}
+
+impl Task for Above<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let n = self.weight.len();
+        let [x, y, z] = self.direction.map(|column| &column[..n]);
+        let [a, b, c] = self.weight.columns();
+        let [red, green, blue] = self.glow.columns_mut();
+        let (a, b, c) = (&a[..n], &b[..n], &c[..n]);
+        let (red, green, blue) = (&mut red[..n], &mut green[..n], &mut blue[..n]);
+        for i in 0..n {
+            let light = radiance(self.sky, DVec3::new(x[i], y[i], z[i]));
+            red[i] = a[i] * light.x;
+            green[i] = b[i] * light.y;
+            blue[i] = c[i] * light.z;
         }
     }
 }
@@ -250,6 +281,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             looks: Looks::default(),
             glow: Columns::default(),
             gains: Vec::new(),
+            met: Boundaries::default(),
             senders: Senders::new(),
             paths: Paths::default(),
             outcomes: Outcomes::default(),
@@ -291,14 +323,19 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         outcomes: &Outcomes,
         studio: &mut Studio,
     ) -> Vec<Wave> {
-        self.look(rays, outcomes, &mut studio.memory.looks);
         studio.light.mark(&paths.sample, &outcomes.verdict);
-        if self.features.absorbs || self.fog.is_some() {
+        let travels = self.features.absorbs || self.fog.is_some();
+        if !travels && count(&outcomes.verdict, Verdict::Hit) == 0 {
+            self.shine_through(rays, paths, studio);
+            return Vec::new();
+        }
+        self.look(rays, outcomes, &mut studio.memory.looks);
+        if travels {
             self.travel(paths, outcomes, studio);
         }
         let Memory { looks, glow, .. } = &mut *studio.memory;
         glow.resize(rays.len());
-        let (terms, weight) = (&looks.terms, &paths.weight);
+        let (terms, weight) = (&looks.terms, paths.weights());
         run_at(
             self.level,
             Glow {
@@ -337,6 +374,20 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         waves
     }
 
+    /// Adds the sky where all rays of a wave hit nothing.
+    fn shine_through(&self, rays: &Rays, paths: &Paths, studio: &mut Studio) {
+        let glow = &mut studio.memory.glow;
+        glow.resize(rays.len());
+        let above = Above {
+            sky: &self.sky,
+            direction: rays.direction(),
+            weight: paths.weights(),
+            glow,
+        };
+        run_at(self.level, above);
+        studio.light.add(&paths.sample, glow.columns(), self.level);
+    }
+
     /// Weakens paths over the distances that their rays went, and adds the light that fog adds to them on the way.
     fn travel(&self, paths: &mut Paths, outcomes: &Outcomes, studio: &mut Studio) {
         let glow = &mut studio.memory.glow;
@@ -358,7 +409,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             for (k, channel) in glow.columns_mut().into_iter().enumerate() {
                 channel[i] = weight[k] * added[k];
             }
-            for (k, channel) in paths.weight.columns_mut().into_iter().enumerate() {
+            for (k, channel) in paths.weight_mut().into_iter().enumerate() {
                 channel[i] = weight[k] * passed;
             }
         }
@@ -368,7 +419,11 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
     /// Adds what the lamps send to a wave's hits. Lamp by lamp, so that shadow rays that are traced together go to one place.
     fn ask_lamps(&self, wave: Meetings, studio: &mut Studio) {
         let Memory {
-            lit, looks, gains, ..
+            lit,
+            looks,
+            gains,
+            met,
+            ..
         } = &mut *studio.memory;
         let Meetings {
             rays,
@@ -377,7 +432,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         } = wave;
         gains.resize_with(self.lamps.len(), Gains::default);
         gains.iter_mut().for_each(Gains::clear);
-        let (terms, weight) = (&looks.terms, &paths.weight);
+        let (terms, weight) = (&looks.terms, paths.weights());
         for first in (0..rays.len()).step_by(CHUNK) {
             let numbers = first..rays.len().min(first + CHUNK);
             if !looks.is_any_lit(numbers.clone()) {
@@ -412,7 +467,8 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         }
         for gains in gains {
             let seen = (self.surfaces, &self.palette);
-            for ray in settle(seen, &self.features, gains, (studio.census, self.level)) {
+            let asked = (&mut *gains, &mut *met);
+            for ray in settle(seen, &self.features, asked, (studio.census, self.level)) {
                 studio.light.unknown[gains.samples[ray as usize] as usize] = true;
             }
             studio

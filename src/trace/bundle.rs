@@ -138,6 +138,11 @@ impl Bundle {
         self.is_marked = true;
     }
 
+    /// Whether no ray has met anything, or been walked.
+    pub fn is_blank(&self) -> bool {
+        self.winners.is_empty() && !self.is_marked
+    }
+
     /// How many lanes are in use: the rays, rounded up to whole packets.
     #[inline(always)]
     pub fn lanes(&self) -> usize {

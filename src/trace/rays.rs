@@ -1,5 +1,6 @@
 //! Rays and what they found, side by side in columns, so that lanes work on many of them.
 
+use super::bundle::run;
 use super::{Footprint, Occlusion, Outcome, Ray, Verdict};
 use crate::num::Columns;
 use glam::DVec3;
@@ -192,6 +193,20 @@ impl Outcomes {
         self.numbers.resize(count);
     }
 
+    /// Says that these rays meet nothing.
+    pub(super) fn miss(&mut self, rays: &[u32]) {
+        let nothing = Outcome::NOTHING;
+        fill(&mut self.verdict, rays, nothing.verdict);
+        fill(&mut self.part, rays, nothing.part);
+        fill(&mut self.steps, rays, nothing.steps);
+        fill(&mut self.evaluations, rays, nothing.evaluations);
+        let (p, n) = (nothing.point, nothing.normal);
+        let numbers = [nothing.t, nothing.error, p.x, p.y, p.z, n.x, n.y, n.z];
+        for (column, number) in self.numbers.columns_mut().into_iter().zip(numbers) {
+            fill(column, rays, number);
+        }
+    }
+
     /// Distances, errors, places and normals, to be written.
     pub(super) fn columns_mut(&mut self) -> [&mut [f64]; 8] {
         self.numbers.columns_mut()
@@ -218,6 +233,14 @@ impl Outcomes {
     /// All of them, in order.
     pub fn iter(&self) -> impl Iterator<Item = Outcome> {
         (0..self.len()).map(|i| self.at(i))
+    }
+}
+
+/// Gives these rays the same value.
+fn fill<T: Copy>(column: &mut [T], rays: &[u32], value: T) {
+    match run(rays) {
+        Some(run) => column[run].fill(value),
+        None => rays.iter().for_each(|ray| column[*ray as usize] = value),
     }
 }
 
@@ -254,6 +277,13 @@ impl Occlusions {
         self.verdict.resize(count, Verdict::Miss);
         self.steps.resize(count, 0);
         self.evaluations.resize(count, 0);
+    }
+
+    /// Says that nothing is in the way of these rays.
+    pub(super) fn miss(&mut self, rays: &[u32]) {
+        fill(&mut self.verdict, rays, Verdict::Miss);
+        fill(&mut self.steps, rays, 0);
+        fill(&mut self.evaluations, rays, 0);
     }
 
     /// All of them, in order.

@@ -204,6 +204,9 @@ impl World {
                 any: true,
             };
             self.sweep(rays, &question, &mut |bundle, numbers| {
+                if bundle.is_blank() {
+                    return found.miss(numbers);
+                }
                 let verdicts = bundle.blocked(self.level);
                 let n = numbers.len();
                 put(&mut found.verdict, numbers, &verdicts[..n]);
@@ -428,6 +431,9 @@ impl World {
         numbers: &[u32],
         (outcomes, open): (&mut Outcomes, &mut Vec<u32>),
     ) {
+        if bundle.is_blank() {
+            return outcomes.miss(numbers);
+        }
         let verdicts = bundle.conclude(self.level);
         for k in 0..bundle.winners.len() {
             let number = bundle.winners[k];

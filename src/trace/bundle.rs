@@ -6,6 +6,7 @@
 )]
 
 use super::analytic::{ClosedForm, Crossing};
+use super::cones::{ALL, PACKETS, Packets};
 use super::finding::{Finding, concluded, is_better, occluded};
 use super::vector::place;
 use super::{Rays, Verdict};
@@ -143,6 +144,11 @@ impl Bundle {
         self.winners.is_empty() && !self.is_marked
     }
 
+    /// Its packets.
+    pub fn packets(&self) -> Packets {
+        ALL >> (PACKETS - self.lanes() / WIDTH)
+    }
+
     /// How many lanes are in use: the rays, rounded up to whole packets.
     #[inline(always)]
     pub fn lanes(&self) -> usize {
@@ -185,14 +191,19 @@ impl Bundle {
         is_taken
     }
 
-    /// Finds where the rays enter and leave a box, in `enter` and `leave`, and which of them meet it.
-    pub fn clip(&mut self, bounds: &Bounds, level: Level) {
+    /// Finds where the rays in some packets enter and leave a box, in `enter` and `leave`, and which of them meet it.
+    pub fn clip(&mut self, bounds: &Bounds, packets: Packets, level: Level) {
         if !self.is_inverted {
             run_at(level, Invert(self));
             self.is_inverted = true;
         }
         let bundle = self;
-        run_at(level, Clip { bundle, bounds });
+        let task = Clip {
+            bundle,
+            bounds,
+            packets,
+        };
+        run_at(level, task);
     }
 
     /// Draws the conclusions of all rays: verdicts, with distances in `enter`, errors in `leave`, places in `point`, parts in
@@ -256,18 +267,6 @@ impl Task for Invert<'_> {
                 b.inverse[axis][i] = 1.0 / b.direction[axis][i];
             }
         }
-    }
-}
-
-/// Finds how far the farthest of the rays is still to be followed; negative where nothing is left to do.
-pub(super) struct Farthest<'a>(pub &'a Bundle);
-
-impl Task for Farthest<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn run(self) -> f64 {
-        fold(&self.0.limit[..self.0.lanes()], -1.0, larger)
     }
 }
 
@@ -378,14 +377,24 @@ impl<F: ClosedForm> Task for Normals<'_, F> {
     fn run(self) {
         let b = self.bundle;
         let number = u64::from(self.number);
-        for i in 0..b.lanes() {
-            let normal = self.form.normal(place(&b.point, i), place(&b.direction, i));
-            let is_here = (b.meets[i] != 0) & (b.part[i] == number);
-            for axis in 0..3 {
-                let before = b.gradient[axis][i];
-                b.gradient[axis][i] = if is_here { normal[axis] } else { before };
+        for first in (0..b.lanes()).step_by(WIDTH) {
+            let first = first.min(CAPACITY - WIDTH);
+            let mut is_any = false;
+            for i in first..first + WIDTH {
+                is_any |= b.part[i] == number;
             }
-            b.meets[i] = if is_here { 0 } else { b.meets[i] };
+            if !is_any {
+                continue;
+            }
+            for i in first..first + WIDTH {
+                let normal = self.form.normal(place(&b.point, i), place(&b.direction, i));
+                let is_here = (b.meets[i] != 0) & (b.part[i] == number);
+                for axis in 0..3 {
+                    let before = b.gradient[axis][i];
+                    b.gradient[axis][i] = if is_here { normal[axis] } else { before };
+                }
+                b.meets[i] = if is_here { 0 } else { b.meets[i] };
+            }
         }
     }
 }
@@ -414,6 +423,7 @@ impl Task for Blocked<'_> {
 struct Clip<'a> {
     bundle: &'a mut Bundle,
     bounds: &'a Bounds,
+    packets: Packets,
 }
 
 impl Task for Clip<'_> {
@@ -422,28 +432,43 @@ impl Task for Clip<'_> {
     #[inline(always)]
     fn run(self) {
         let b = self.bundle;
-        for i in 0..b.lanes() {
-            let (mut enter, mut leave) = (0.0f64, b.limit[i]);
-            for axis in 0..3 {
-                let (o, inverse) = (b.origin[axis][i], b.inverse[axis][i]);
-                let first = (self.bounds.low[axis] - o) * inverse;
-                let second = (self.bounds.high[axis] - o) * inverse;
-                // Not a number where a ray runs within a face: then the face does not cut it.
-                let is_number = first <= second || second <= first;
-                let near = if first < second { first } else { second };
-                let far = if first < second { second } else { first };
-                let near = if is_number { near } else { f64::NEG_INFINITY };
-                let far = if is_number { far } else { f64::INFINITY };
-                let near = near * (1.0 - 4.0 * f64::EPSILON);
-                let far = far * (1.0 + 4.0 * f64::EPSILON);
-                enter = if near > enter { near } else { enter };
-                leave = if far < leave { far } else { leave };
+        b.meets = [0; CAPACITY];
+        for k in ones(self.packets) {
+            let first = (k * WIDTH).min(CAPACITY - WIDTH);
+            for i in first..first + WIDTH {
+                let (mut enter, mut leave) = (0.0f64, b.limit[i]);
+                for axis in 0..3 {
+                    let (o, inverse) = (b.origin[axis][i], b.inverse[axis][i]);
+                    let first = (self.bounds.low[axis] - o) * inverse;
+                    let second = (self.bounds.high[axis] - o) * inverse;
+                    // Not a number where a ray runs within a face: then the face does not cut it.
+                    let is_number = first <= second || second <= first;
+                    let near = if first < second { first } else { second };
+                    let far = if first < second { second } else { first };
+                    let near = if is_number { near } else { f64::NEG_INFINITY };
+                    let far = if is_number { far } else { f64::INFINITY };
+                    let near = near * (1.0 - 4.0 * f64::EPSILON);
+                    let far = far * (1.0 + 4.0 * f64::EPSILON);
+                    enter = if near > enter { near } else { enter };
+                    leave = if far < leave { far } else { leave };
+                }
+                b.enter[i] = enter;
+                b.leave[i] = leave;
+                b.meets[i] = u8::from(enter <= leave);
             }
-            b.enter[i] = enter;
-            b.leave[i] = leave;
-            b.meets[i] = u8::from(enter <= leave);
         }
     }
+}
+
+/// The packets of a bundle that these bits stand for.
+#[inline(always)]
+pub(super) fn ones(packets: Packets) -> impl Iterator<Item = usize> {
+    let mut left = packets;
+    std::iter::from_fn(move || {
+        let first = (left != 0).then(|| left.trailing_zeros() as usize);
+        left &= left.wrapping_sub(1);
+        first
+    })
 }
 
 /// Asks where the rays of a bundle enter a surface, and takes that as hits.
@@ -454,6 +479,8 @@ pub(super) struct Enter<'a, F> {
     pub form: &'a F,
     /// The part that it is.
     pub number: u32,
+    /// The packets that may meet it.
+    pub packets: Packets,
     /// Whether the rays are content with any hit.
     pub any: bool,
 }
@@ -466,8 +493,8 @@ impl<F: ClosedForm> Task for Enter<'_, F> {
     #[inline(always)]
     fn run(mut self) -> bool {
         let mut is_new = false;
-        for first in (0..self.bundle.lanes()).step_by(WIDTH) {
-            let first = first.min(CAPACITY - WIDTH);
+        for k in ones(self.packets) {
+            let first = (k * WIDTH).min(CAPACITY - WIDTH);
             let mut is_met = false;
             for i in first..first + WIDTH {
                 let (o, d) = (

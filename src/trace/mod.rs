@@ -9,6 +9,7 @@ pub mod analytic;
 mod beam;
 mod bundle;
 mod chord;
+mod cones;
 mod cut;
 mod descent;
 mod evidence;

@@ -20,8 +20,9 @@
 )]
 
 use super::analytic::{Ball, ClosedForm, U};
-use super::bundle::{Bundle, CAPACITY, WIDTH, larger, lesser};
+use super::bundle::{Bundle, CAPACITY, WIDTH, larger, lesser, ones};
 use super::chord::Frame;
+use super::cones::Packets;
 use super::cut::{Found, Workshop, lines};
 use super::packet::Lane;
 use super::quartic::{Quartics, state};
@@ -51,7 +52,7 @@ pub struct Ring {
     /// The minor radius in major ones.
     minor: f64,
     /// A ball around it.
-    around: Ball,
+    pub(super) around: Ball,
     /// How many units of rounding a value of the quartic may be off.
     doubt: f64,
 }
@@ -177,6 +178,8 @@ pub(super) struct Near<'a> {
     pub bundle: &'a mut Bundle,
     /// The ring.
     pub ring: &'a Ring,
+    /// The packets that may meet it.
+    pub packets: Packets,
 }
 
 impl Task for Near<'_> {
@@ -187,15 +190,15 @@ impl Task for Near<'_> {
     fn run(self) -> bool {
         let (b, ring) = (self.bundle, self.ring);
         let mut count = 0;
-        for first in (0..b.lanes()).step_by(WIDTH) {
-            let first = first.min(CAPACITY - WIDTH);
+        b.meets = [0; CAPACITY];
+        for k in ones(self.packets) {
+            let first = (k * WIDTH).min(CAPACITY - WIDTH);
             let mut is_met = false;
             for i in first..first + WIDTH {
                 let (o, d) = (place(&b.origin, i), place(&b.direction, i));
                 is_met |= ring.around.may_meet(o, d);
             }
             if !is_met {
-                b.meets[first..first + WIDTH].fill(0);
                 continue;
             }
             for i in first..first + WIDTH {

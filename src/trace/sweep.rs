@@ -4,9 +4,10 @@
 //! combination is thinned out ball by ball along the beam. What is left out has no say on any of the rays, so no ray's
 //! result depends on the others. Sources: Barbier et al. 2025 for thinning; Boulos, Wald and Shirley 2006 for beams.
 
-use super::analytic::{ClosedForm, Crossing};
+use super::analytic::{Ball, ClosedForm, Crossing};
 use super::beam::Beam;
-use super::bundle::{Bundle, CAPACITY, Enter, Farthest, WIDTH};
+use super::bundle::{Bundle, CAPACITY, Enter, WIDTH};
+use super::cones::{ALL, Cones, Follow, Gather, Meeting, Packets};
 use super::cut::{Cut, Workshop};
 use super::descent::{Descent, Step};
 use super::inclines::{Derivatives, Gradient};
@@ -19,15 +20,17 @@ use super::stages::{Stage, stages};
 use super::stride::Stride;
 use super::world::World;
 use super::{Rays, Verdict};
+use crate::catalogue::Bounds;
 use crate::field::{Thinned, run_at};
+use glam::DVec3;
 use std::cell::Cell;
 use std::ops::Range;
 
 /// A bundle whose beam meets more parts than this is divided.
-const CROWD: usize = 24;
+const CROWD: usize = 36;
 
-/// The same for what fits into one packet.
-const SMALL_CROWD: usize = 64;
+/// Of more parts than this each is asked only of the packets that may meet it.
+const SOME: usize = 4;
 
 /// A bundle whose beam meets more nodes and parts than this on one level of the hierarchy is divided there.
 const THRONG: usize = 64;
@@ -47,6 +50,7 @@ const LAGGARDS: i64 = 12;
 /// Memory that is used again and again.
 pub(super) struct Scratch {
     bundle: Box<Bundle>,
+    cones: Cones,
     /// Those of a bundle, and one more in which lanes are put together.
     packets: Vec<Box<Packet>>,
     descent: Descent,
@@ -77,6 +81,9 @@ pub(super) struct Question<'a> {
     pub any: bool,
 }
 
+/// A part, and the packets of which it is asked.
+type Asked = (u32, Packets);
+
 /// What a part is asked.
 struct Visit<'a> {
     marched: &'a Marched,
@@ -97,6 +104,7 @@ impl World {
         let mut scratch = scratch.unwrap_or_else(|| {
             Box::new(Scratch {
                 bundle: Bundle::new(),
+                cones: Cones::default(),
                 packets: (0..=MIXED).map(|_| Box::default()).collect(),
                 descent: Descent::default(),
                 entries: Vec::new(),
@@ -132,7 +140,7 @@ impl World {
     ) {
         scratch.bundle.fill(rays, numbers);
         let beam = Beam::around(&scratch.bundle, self.level);
-        let limit = self.farthest(&scratch.bundle);
+        let limit = self.farthest(scratch);
         let most = if numbers.len() > 1 {
             THRONG
         } else {
@@ -163,14 +171,23 @@ impl World {
             *enter = -1.0;
         }
         met.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let is_told = scratch.descent.met.len() > SOME;
+        if is_told {
+            let Scratch { cones, bundle, .. } = &mut *scratch;
+            run_at(self.level, Gather { cones, bundle });
+        }
         let mut farthest = limit;
         for k in 0..scratch.descent.met.len() {
             let (enter, number) = scratch.descent.met[k];
             if enter > farthest {
                 break;
             }
-            if self.ask(number, &beam, question.any, scratch) {
-                farthest = self.farthest(&scratch.bundle);
+            let mut packets = scratch.bundle.packets();
+            if is_told {
+                packets &= self.meeting(number, &scratch.cones);
+            }
+            if packets != 0 && self.ask((number, packets), &beam, question.any, scratch) {
+                farthest = self.farthest(scratch);
                 scratch.occluder = Some(number);
             }
         }
@@ -179,7 +196,6 @@ impl World {
 
     /// Whether a beam of `rays` rays should be divided before it is asked of these parts.
     fn is_crowd(&self, beam: &Beam, rays: usize, candidates: &[(f64, u32)]) -> bool {
-        let crowd = if rays > WIDTH { CROWD } else { SMALL_CROWD };
         let is_too_wide = |number: u32| match &self.parts[number as usize].kind {
             PartKind::Marched(marched) => {
                 let size = marched.region.radius();
@@ -187,7 +203,7 @@ impl World {
             }
             _ => false,
         };
-        rays > 1 && candidates.len() > crowd
+        rays > 1 && candidates.len() > CROWD
             || rays > WIDTH && candidates.iter().any(|(_, number)| is_too_wide(*number))
     }
 
@@ -221,18 +237,19 @@ impl World {
         true
     }
 
-    /// Asks one part of all rays of the bundle; gives whether any found something.
-    fn ask(&self, number: u32, beam: &Beam, any: bool, scratch: &mut Scratch) -> bool {
+    /// Asks one part of the rays in some packets of the bundle; gives whether any found something.
+    fn ask(&self, asked: Asked, beam: &Beam, any: bool, scratch: &mut Scratch) -> bool {
         let bundle = &mut *scratch.bundle;
+        let (number, packets) = asked;
         match &self.parts[number as usize].kind {
-            PartKind::Ball(form) => self.enter(form, number, any, bundle),
-            PartKind::HalfSpace(form) => self.enter(form, number, any, bundle),
-            PartKind::Block(form) => self.enter(form, number, any, bundle),
-            PartKind::Facet(form) => self.enter(form, number, any, bundle),
-            PartKind::Pane(form) => self.enter(&**form, number, any, bundle),
-            PartKind::Ring(ring, spare) => self.ring(ring, spare, number, beam, any, scratch),
+            PartKind::Ball(form) => self.enter(form, asked, any, bundle),
+            PartKind::HalfSpace(form) => self.enter(form, asked, any, bundle),
+            PartKind::Block(form) => self.enter(form, asked, any, bundle),
+            PartKind::Facet(form) => self.enter(form, asked, any, bundle),
+            PartKind::Pane(form) => self.enter(&**form, asked, any, bundle),
+            PartKind::Ring(ring, spare) => self.ring(ring, spare, asked, beam, any, scratch),
             PartKind::Marched(marched) => {
-                bundle.clip(&marched.region, self.level);
+                bundle.clip(&marched.region, packets, self.level);
                 bundle.meeting(&mut scratch.rays);
                 if scratch.rays.is_empty() {
                     return false;
@@ -244,11 +261,18 @@ impl World {
     }
 
     /// Takes where the rays enter a surface in closed form as hits; gives whether any is new.
-    fn enter<F: ClosedForm>(&self, form: &F, number: u32, any: bool, bundle: &mut Bundle) -> bool {
+    fn enter<F: ClosedForm>(
+        &self,
+        form: &F,
+        (number, packets): Asked,
+        any: bool,
+        bundle: &mut Bundle,
+    ) -> bool {
         let task = Enter {
             bundle,
             form,
             number,
+            packets,
             any,
         };
         let is_new = run_at(self.level, task);
@@ -263,13 +287,20 @@ impl World {
         &self,
         ring: &Ring,
         spare: &Spare,
-        number: u32,
+        (number, packets): Asked,
         beam: &Beam,
         any: bool,
         scratch: &mut Scratch,
     ) -> bool {
         let bundle = &mut *scratch.bundle;
-        if !run_at(self.level, Near { bundle, ring }) {
+        if !run_at(
+            self.level,
+            Near {
+                bundle,
+                ring,
+                packets,
+            },
+        ) {
             return false;
         }
         bundle.mark();
@@ -282,7 +313,7 @@ impl World {
         }
         let node = &self.parts[number as usize].node;
         let marched = spare.marched(node, self.settings.method, self.level);
-        bundle.clip(&marched.region, self.level);
+        bundle.clip(&marched.region, packets, self.level);
         let meets = |ray: &u32| bundle.meets[*ray as usize] != 0;
         rays.clear();
         rays.extend(shop.open.drain(..).filter(meets));
@@ -291,8 +322,21 @@ impl World {
     }
 
     /// How far the farthest ray of a bundle is still to be followed.
-    fn farthest(&self, bundle: &Bundle) -> f64 {
-        run_at(self.level, Farthest(bundle))
+    fn farthest(&self, scratch: &mut Scratch) -> f64 {
+        let Scratch { cones, bundle, .. } = scratch;
+        run_at(self.level, Follow { cones, bundle })
+    }
+
+    /// The packets of a bundle that may meet a part.
+    fn meeting(&self, number: u32, cones: &Cones) -> Packets {
+        let part = &self.parts[number as usize];
+        let ball = match &part.kind {
+            PartKind::Ball(ball) => *ball,
+            PartKind::Ring(ring, _) => ring.around,
+            _ if part.bounds.is_finite() => around(&part.bounds),
+            _ => return ALL,
+        };
+        run_at(self.level, Meeting { cones, ball })
     }
 
     /// Walks the rays that come into the region of a part through its field.
@@ -573,6 +617,14 @@ impl World {
             }
         }
         fresh.clear();
+    }
+}
+
+/// A ball around a box.
+fn around(bounds: &Bounds) -> Ball {
+    Ball {
+        centre: DVec3::from_array(bounds.centre()),
+        radius: 0.5 * DVec3::from_array(bounds.size()).length(),
     }
 }
 

@@ -6,6 +6,7 @@
 )]
 
 use super::analytic::{ClosedForm, Crossing};
+use super::bits::ones;
 use super::cones::{ALL, PACKETS, Packets};
 use super::finding::{Finding, concluded, is_better, occluded};
 use super::vector::place;
@@ -458,17 +459,6 @@ impl Task for Clip<'_> {
             }
         }
     }
-}
-
-/// The packets of a bundle that these bits stand for.
-#[inline(always)]
-pub(super) fn ones(packets: Packets) -> impl Iterator<Item = usize> {
-    let mut left = packets;
-    std::iter::from_fn(move || {
-        let first = (left != 0).then(|| left.trailing_zeros() as usize);
-        left &= left.wrapping_sub(1);
-        first
-    })
 }
 
 /// Asks where the rays of a bundle enter a surface, and takes that as hits.

@@ -16,6 +16,7 @@
 )]
 
 use super::analytic::Ball;
+use super::bits::bits;
 use super::bundle::{Bundle, CAPACITY, WIDTH, fold, larger};
 use super::vector::place;
 use crate::field::Task;
@@ -134,8 +135,7 @@ impl Task for Meeting<'_> {
     fn run(self) -> Packets {
         let (cones, Ball { centre, radius }) = (self.cones, self.ball);
         let radius = radius * (1.0 + ROOM) + 8.0 * f64::EPSILON * largest(centre);
-        let mut meets = [0u64; PACKETS];
-        for k in 0..PACKETS {
+        bits(|k| {
             let (q, d) = (centre - place(&cones.origin, k), place(&cones.direction, k));
             let (spread, reach) = (cones.spread[k], radius + cones.width[k]);
             let square = d.dot(d) - spread * spread;
@@ -149,13 +149,8 @@ impl Task for Meeting<'_> {
             // No ray goes farther than its own length, and all start within the width.
             let end = (cones.limit[k] + reach) * (1.0 + ROOM);
             let is_ahead = (cones.limit[k] >= 0.0) & (distance <= end * end);
-            meets[k] = u64::from(is_met & is_ahead);
-        }
-        let mut packets = 0;
-        for k in 0..PACKETS {
-            packets |= (meets[k] as u32) << k;
-        }
-        packets
+            is_met & is_ahead
+        })
     }
 }
 

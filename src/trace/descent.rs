@@ -4,6 +4,7 @@
 //! from the nodes that it has met. Source: Reshetov, Soupikov and Hurley 2005, entry points for beams of rays.
 
 use super::beam::Beam;
+use super::bits::{bits, ones};
 use super::hierarchy::{BRANCHES, Hierarchy};
 use crate::field::{Level, Task, run_at};
 
@@ -78,11 +79,9 @@ impl Task for Down<'_, '_> {
             let node = self.step.hierarchy.node(*number);
             let entered = self.step.beam.entered(&node.boxes, self.step.limit);
             let before = met.len();
-            let bits = (0..BRANCHES).map(|k| u32::from(entered[k] < f64::INFINITY) << k);
-            let mut left = bits.fold(0, |all, bit| all | bit) & ((1 << node.count) - 1);
-            while left != 0 {
-                let k = left.trailing_zeros() as usize % BRANCHES;
-                left &= left - 1;
+            let found = bits(|k| entered[k] < f64::INFINITY);
+            for k in ones(found & ((1 << node.count) - 1)) {
+                let k = k % BRANCHES;
                 if node.has_parts {
                     met.push((entered[k], node.inside[k]));
                 } else {

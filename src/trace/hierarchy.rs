@@ -8,7 +8,7 @@ use crate::catalogue::Bounds;
 use glam::DVec3;
 
 /// How many boxes a node has: as many as lanes ask at once.
-pub(super) const BRANCHES: usize = 8;
+pub(super) const BRANCHES: usize = super::bits::LANES;
 
 /// A number for each box of a node.
 pub(super) type Eight = [f64; BRANCHES];

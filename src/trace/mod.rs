@@ -7,6 +7,7 @@
 
 pub mod analytic;
 mod beam;
+mod bits;
 mod bundle;
 mod chord;
 mod cones;

@@ -20,7 +20,8 @@
 )]
 
 use super::analytic::{Ball, ClosedForm, U};
-use super::bundle::{Bundle, CAPACITY, WIDTH, larger, lesser, ones};
+use super::bits::ones;
+use super::bundle::{Bundle, CAPACITY, WIDTH, larger, lesser};
 use super::chord::Frame;
 use super::cones::Packets;
 use super::cut::{Found, Workshop, lines};

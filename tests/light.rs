@@ -667,3 +667,40 @@ fn light_does_not_depend_on_what_is_traced_together() {
     assert_eq!(counts(sum), counts(all));
     assert!(all.refracted > 50_000);
 }
+
+#[test]
+fn light_does_not_depend_on_what_was_seen_before() {
+    let light = |k: usize| {
+        let (mut scene, _, rays) = crowd(600);
+        let painted = |color: DVec3| Material {
+            color: Term::Constant(color),
+            ..Material::default()
+        };
+        // The same numbers of the same rays: other colours, more of them in a picture, fog, or nothing but the sky.
+        let color = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::X, DVec3::X][k];
+        let mut solids = vec![
+            (ground(-1.0), painted(color)),
+            (ball([0.0; 3], 1.0), mirror(0.5)),
+        ];
+        if k == 3 {
+            scene.fog = foggy(0.1).fog;
+        } else if k == 4 {
+            solids.clear();
+        }
+        let stage = Stage::new(solids);
+        let whitted = Whitted::new(&scene, &stage);
+        let mut census = Census::default();
+        let rays: Rays = rays.iter().collect();
+        let outcomes = whitted.first_hits(&rays, &mut census);
+        let light = whitted.light(&rays, &outcomes, &mut census).radiance;
+        (0..rays.len()).map(|i| light.row(i)).collect::<Vec<_>>()
+    };
+    // Each thread has a memory of its own, which is empty at first.
+    let alone: Vec<_> = (0..5)
+        .map(|k| std::thread::scope(|scope| scope.spawn(|| light(k)).join().expect("no panic")))
+        .collect();
+    for k in [0, 1, 0, 2, 3, 0, 3, 4, 1, 4, 2, 2] {
+        assert_eq!(light(k), alone[k], "{k}");
+    }
+    assert!((1..5).all(|k| alone[k] != alone[0]));
+}

@@ -144,12 +144,12 @@ impl Task for Meeting<'_> {
             let start = (distance - reach * reach) * square;
             let turn = if linear > 0.0 { linear * linear } else { 0.0 };
             let room = ROOM * (distance * square + turn);
-            // Cones that are wider than they are long hold everything.
-            let is_met = (start - turn <= room) | (square <= 0.0);
+            // Cones that are wider than they are long hold everything, and what is not a number is not known to miss.
+            let is_aside = (start - turn > room) & (square > 0.0);
             // No ray goes farther than its own length, and all start within the width.
             let end = (cones.limit[k] + reach) * (1.0 + ROOM);
-            let is_ahead = (cones.limit[k] >= 0.0) & (distance <= end * end);
-            is_met & is_ahead
+            let is_behind = distance > end * end;
+            (cones.limit[k] >= 0.0) & !(is_aside | is_behind)
         })
     }
 }

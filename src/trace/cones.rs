@@ -227,6 +227,6 @@ mod tests {
                 missed += (all & !packets).count_ones();
             }
         }
-        assert!(met > 10_000 && missed > 5_000, "{met} {missed}");
+        assert!(met > 3_000 && missed > 10_000, "{met} {missed}");
     }
 }

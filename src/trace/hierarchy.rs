@@ -109,8 +109,8 @@ impl Hierarchy {
             if groups[largest].len() <= room {
                 break;
             }
-            let halves = halved(groups.swap_remove(largest));
-            groups.extend(halves);
+            let items = groups.swap_remove(largest);
+            groups.extend(halves(items, room));
         }
         let hulls = groups.iter().map(|items| {
             let boxes = items.iter().map(|(_, bounds)| *bounds);
@@ -154,14 +154,16 @@ impl Hierarchy {
     }
 }
 
-/// The two halves of some parts along the longest axis of their centres.
-fn halved(items: &mut [Item]) -> [&mut [Item]; 2] {
+/// Some parts, divided in about half along the longest axis of their centres: the first of them fill branches with `room` for so
+/// many. There are more than that.
+fn halves(items: &mut [Item], room: usize) -> [&mut [Item]; 2] {
     let centres = Bounds::around(items.iter().map(|(_, b)| b.centre()));
     let size = centres.size();
     let axis = (0..3)
         .max_by(|a, b| size[*a].total_cmp(&size[*b]))
         .unwrap_or(0);
-    let middle = items.len() / 2;
+    let full = items.len().div_ceil(2).next_multiple_of(room);
+    let middle = full.min(items.len() - 1);
     items.select_nth_unstable_by(middle, |(i, a), (j, b)| {
         a.centre()[axis].total_cmp(&b.centre()[axis]).then(i.cmp(j))
     });
@@ -206,4 +208,41 @@ pub(super) fn stretch(origin: f64, enter: f64, leave: f64, t_max: f64) -> (f64, 
         leave + slack(leave)
     };
     (start, end)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::samples::random;
+
+    #[test]
+    fn every_part_is_in_one_box_and_nodes_are_full() {
+        for n in [1, 2, 7, 8, 9, 63, 64, 65, 300, 512, 513, 5000] {
+            let place = |k: u64| [0, 1, 2].map(|axis| random(3 * k + axis));
+            let bounds = |k: u32| Bounds::centred([0.01; 3]).translate(place(u64::from(k)));
+            let items: Vec<Item> = (0..n).map(|k| (k, bounds(k))).collect();
+            let hierarchy = Hierarchy::new(&items);
+            let mut found = Vec::new();
+            hierarchy.visit(|_| [0.0; BRANCHES], |part, _| found.push(part));
+            found.sort_unstable();
+            assert_eq!(found, (0..n).collect::<Vec<_>>());
+            let with_parts = hierarchy.nodes.iter().filter(|node| node.has_parts);
+            assert_eq!(with_parts.count(), n.div_ceil(BRANCHES as u32) as usize);
+            for node in &hierarchy.nodes {
+                for k in 0..node.count {
+                    let boxes = node.boxes.at(k);
+                    let number = node.inside[k];
+                    let inner = if node.has_parts {
+                        bounds(number)
+                    } else {
+                        let below = hierarchy.node(number);
+                        (0..below.count)
+                            .map(|k| below.boxes.at(k))
+                            .fold(Bounds::EMPTY, Bounds::hull)
+                    };
+                    assert_eq!(boxes, inner, "{n}");
+                }
+            }
+        }
+    }
 }

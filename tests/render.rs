@@ -7,7 +7,8 @@ use fieldstone::scene::{
     Camera, Falloff, Fog, Light, Material, Method, Node, Projection, Scene, Shadow, Sky, Source,
     Term,
 };
-use fieldstone::trace::World;
+use fieldstone::shade::Surfaces;
+use fieldstone::trace::{Occlusions, Outcomes, Paint, Rays, Visibility, World};
 use glam::DVec3;
 use std::sync::Arc;
 use std::sync::Mutex;
@@ -107,6 +108,71 @@ fn everything() -> RenderOptions<'static> {
         channels: &Channel::ALL,
         ..RenderOptions::default()
     }
+}
+
+/// A world that never says that a beam is empty.
+struct Vague(World);
+
+impl Surfaces for Vague {
+    fn nearest(&self, rays: &Rays, visibility: Visibility, found: &mut Outcomes) {
+        Surfaces::nearest(&self.0, rays, visibility, found);
+    }
+
+    fn occluded(&self, rays: &Rays, found: &mut Occlusions) {
+        Surfaces::occluded(&self.0, rays, found);
+    }
+
+    fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>> {
+        Surfaces::paints(&self.0, part, point)
+    }
+
+    fn materials(&self) -> &[Arc<Material>] {
+        Surfaces::materials(&self.0)
+    }
+
+    fn sole(&self, part: u32) -> Option<usize> {
+        Surfaces::sole(&self.0, part)
+    }
+}
+
+#[test]
+fn empty_blocks_are_as_if_their_rays_were_traced() {
+    let channels = [&Channel::ALL[..], &[Channel::Depth], &[Channel::Beauty]];
+    let mut missed = 0;
+    for k in 0..24 {
+        let mut scene = scene(1.0);
+        scene.settings.samples = [1, 3][k % 2];
+        scene.settings.size = [[75, 50], [64, 33]][k / 2 % 2];
+        scene.fog = scene.fog.filter(|_| k % 3 == 0);
+        if k % 4 < 2 {
+            scene.sky = Sky::uniform(DVec3::new(0.1, 0.2, 0.3));
+        }
+        if k % 5 > 1 {
+            scene.shown.remove(0);
+        }
+        if k % 7 < 3 {
+            scene.camera.projection = Projection::Orthographic { height: 7.0 };
+        }
+        if k > 15 {
+            scene.settings.method = Method::Sphere;
+        }
+        let options = RenderOptions {
+            channels: channels[k % 3],
+            ..everything()
+        };
+        let told = rendered(&scene, &options);
+        let world = Vague(World::new(&scene).expect("a world"));
+        let asked = render(&scene, &world, &options);
+        assert_eq!(told.film, asked.film, "{k}");
+        let (told, asked) = (told.statistics, asked.statistics);
+        assert_eq!((told.rays, told.primary), (asked.rays, asked.primary));
+        assert_eq!(
+            (told.steps, told.evaluations),
+            (asked.steps, asked.evaluations)
+        );
+        missed += told.primary.misses;
+    }
+    assert!(missed > 20_000, "{missed}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! What the samples of a block of pixels add up to: only what is asked for.
 
 use super::Channel;
-use super::block::Block;
+use super::block::{BLOCK, Block};
 use super::film::Patch;
 use crate::num::Columns;
 use crate::shade::Received;
@@ -48,6 +48,27 @@ impl Exposure {
             is_unknown: Vec::new(),
             sums: channels.iter().map(sum).collect(),
         }
+    }
+
+    /// So many samples of all pixels of a block that meet nothing and show this colour.
+    pub fn even(channels: &[Channel], samples: u32, color: DVec3) -> Self {
+        let pixels = (BLOCK * BLOCK) as usize;
+        let mut radiance = Columns::default();
+        radiance.resize(pixels);
+        for (column, number) in radiance.columns_mut().into_iter().zip(color.to_array()) {
+            column.fill(number);
+        }
+        let light = Received {
+            radiance,
+            unknown: vec![false; pixels],
+        };
+        let mut exposure = Self::new(channels);
+        exposure.reset(pixels);
+        for _ in 0..samples {
+            exposure.add_colors(&light.radiance);
+            exposure.add_light(&light);
+        }
+        exposure
     }
 
     /// Forgets all of it, for that many pixels.

@@ -117,11 +117,16 @@ impl Histogram {
     pub fn add_all(&mut self, steps: &[u32]) {
         // Most rays are met in closed form, and take none.
         let some = steps.iter().filter(|steps| **steps != 0).count();
-        self.few[0] += (steps.len() - some) as u64;
+        self.add_none(steps.len() - some);
         if some > 0 {
             let some = steps.iter().filter(|steps| **steps != 0);
             some.for_each(|steps| self.add(*steps));
         }
+    }
+
+    /// Counts so many rays that took no step.
+    pub fn add_none(&mut self, rays: usize) {
+        self.few[0] += rays as u64;
     }
 
     /// The numbers of steps that occurred, each with its number of rays, in order.
@@ -180,6 +185,14 @@ pub struct Tally {
     pub unknown_pixels: u64,
     /// The time in tiles.
     pub busy: Duration,
+}
+
+impl Tally {
+    /// Counts camera rays that met nothing.
+    pub fn miss(&mut self, rays: usize) {
+        self.census.miss(rays);
+        self.steps.add_none(rays);
+    }
 }
 
 impl AddAssign for Tally {

@@ -8,6 +8,7 @@ use super::{Channel, View, sampling};
 use crate::scene::Settings;
 use crate::shade::{Received, Surfaces, Whitted};
 use crate::trace::{Outcomes, Rays};
+use glam::DVec3;
 use std::cell::Cell;
 use std::time::Instant;
 
@@ -18,6 +19,24 @@ pub struct Shared<'a, S: Surfaces + ?Sized> {
     pub settings: &'a Settings,
     /// What is recorded.
     pub channels: &'a [Channel],
+}
+
+impl<S: Surfaces + ?Sized> Shared<'_, S> {
+    /// Whether any ray through the block at `corner`, which does not go beyond `end`, may meet anything.
+    fn may_meet(&self, corner: [u32; 2], end: [u32; 2]) -> bool {
+        let end = [0, 1].map(|axis| end[axis].min(corner[axis] + BLOCK));
+        self.whitted.may_meet(&self.view.beam(corner, end))
+    }
+
+    /// What is recorded of rays that meet nothing, if it is the same for all of them.
+    fn backdrop(&self) -> Option<DVec3> {
+        let shows = |channel| self.channels.contains(channel);
+        if [Channel::Beauty, Channel::Color].iter().any(shows) {
+            self.whitted.backdrop()
+        } else {
+            Some(DVec3::ZERO)
+        }
+    }
 }
 
 /// A square of blocks.
@@ -63,11 +82,21 @@ impl Tile {
         let mut desk = DESK.with(Cell::take).unwrap_or_default();
         let mut exposure = Exposure::new(shared.channels);
         let mut block = Block::default();
+        let mut even = None;
         for corner in self.corners() {
             block.move_to(corner, self.end);
-            exposure.reset(block.pixels().len());
+            let pixels = block.pixels().len();
+            let is_empty = !shared.may_meet(corner, self.end);
+            if is_empty && let Some(color) = shared.backdrop() {
+                tally.miss(pixels * samples as usize);
+                even.get_or_insert_with(|| Exposure::even(shared.channels, samples, color))
+                    .develop(samples, &block, patch);
+                continue;
+            }
+            exposure.reset(pixels);
             for sample in 0..samples {
                 desk.aim(shared, block.pixels(), sample);
+                desk.meet(shared, is_empty, &mut tally);
                 desk.expose(shared, &mut exposure, &mut tally);
             }
             tally.unknown_pixels += exposure.unknown() as u64;
@@ -105,6 +134,24 @@ impl Desk {
         shared.view.aim(pixels, aside, &mut self.rays);
     }
 
+    /// Finds what the rays meet, if it is not known that this is nothing.
+    fn meet<S: Surfaces + ?Sized>(
+        &mut self,
+        shared: &Shared<S>,
+        is_empty: bool,
+        tally: &mut Tally,
+    ) {
+        if is_empty {
+            self.outcomes = Outcomes::nothing(self.rays.len());
+            return tally.miss(self.rays.len());
+        }
+        let census = &mut tally.census;
+        shared
+            .whitted
+            .meet_first(&self.rays, census, &mut self.outcomes);
+        tally.steps.add_all(&self.outcomes.steps);
+    }
+
     /// Adds what is seen along the rays.
     fn expose<S: Surfaces + ?Sized>(
         &mut self,
@@ -118,9 +165,7 @@ impl Desk {
             light,
         } = self;
         let whitted = &shared.whitted;
-        whitted.meet_first(rays, &mut tally.census, outcomes);
         exposure.add_hits(outcomes);
-        tally.steps.add_all(&outcomes.steps);
         if shared.channels.contains(&Channel::Color) {
             exposure.add_colors(&whitted.flat_colors(rays, outcomes));
         }

@@ -6,7 +6,7 @@
 
 use crate::field::{Level, Task, run_at};
 use crate::scene::{Camera, Projection};
-use crate::trace::{Footprint, Ray, Rays};
+use crate::trace::{Beam, Footprint, Ray, Rays};
 use glam::DVec3;
 
 /// A camera in front of a grid of pixels.
@@ -85,6 +85,32 @@ impl View {
             rays,
         };
         run_at(self.level, lines);
+    }
+
+    /// What holds all rays through the pixels from the upper left one at `corner` up to, but not with, those at `end`: their
+    /// whole squares.
+    pub fn beam(&self, corner: [u32; 2], end: [u32; 2]) -> Beam {
+        let side = |pixel: u32| f64::from(pixel) - 0.5;
+        let (mut origins, mut directions) = ([self.eye; 2], [self.forward; 2]);
+        let aside = if self.is_parallel {
+            &mut origins
+        } else {
+            &mut directions
+        };
+        // The mean of two corners, and how far the plane through all four goes from it along each axis.
+        let [left, top] = self.screen(side(corner[0]), side(corner[1]));
+        let [right, bottom] = self.screen(side(end[0]), side(end[1]));
+        let [x, y] = [(left, right), (bottom, top)].map(|(low, high)| {
+            let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+            (middle, half)
+        });
+        let middle = aside[0] + self.right * x.0 + self.up * y.0;
+        let half = (self.right * x.1).abs() + (self.up * y.1).abs();
+        // Room for the rounding of places on the screen and of what is normalised.
+        let size = aside[0].length() + left.abs().max(right.abs()) + top.abs().max(bottom.abs());
+        let half = half + DVec3::splat(1e-12 * size);
+        *aside = [middle - half, middle + half];
+        Beam::within(origins, directions)
     }
 
     /// Where the ray through a place of the screen starts and goes.
@@ -166,6 +192,17 @@ fn axes(camera: &Camera) -> [DVec3; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::catalogue::{AnyModifier, AnyPrimitive, Plane, Sphere, Translate};
+    use crate::num::samples::random;
+    use crate::scene::{Node, Scene};
+    use crate::trace::{Verdict, Visibility, World};
+    use std::sync::Arc;
+
+    fn moved(primitive: AnyPrimitive, by: DVec3) -> Arc<Node> {
+        let shape = Node::primitive(primitive).expect("a valid primitive");
+        let by = AnyModifier::Translate(Translate::new(by.to_array()));
+        Node::modifier(by, shape).expect("a valid modifier")
+    }
 
     fn camera() -> Camera {
         Camera {
@@ -255,6 +292,71 @@ mod tests {
         let (a, b) = (view.ray(50.0, 50.0), view.ray(51.0, 50.0));
         let apart = (a.at(3.0) - b.at(3.0)).length();
         assert!((a.footprint.at(3.0) / apart - 1.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn what_a_ray_meets_the_beam_of_its_pixels_may_meet() {
+        let (mut met, mut empty) = (0, 0);
+        for seed in 0..600u64 {
+            let x = |k: u64| random(seed * 97 + k);
+            let corner = |k: u64| DVec3::new(x(k), x(k + 1), x(k + 2)) * 2.0 - DVec3::ONE;
+            let projection = if seed % 3 == 0 {
+                Projection::Orthographic { height: 4.0 }
+            } else {
+                Projection::Perspective {
+                    fov: 0.2 + 2.0 * x(9),
+                }
+            };
+            let eye = 3.0 * corner(0);
+            let (at, up) = (corner(3), corner(6));
+            let view = View::new(
+                &Camera {
+                    eye,
+                    at,
+                    up,
+                    projection,
+                    screen: None,
+                },
+                [90, 60],
+            );
+            // A ball on the border of a ray through some of the pixels, a half-space behind it.
+            let first = [60.0 * x(10), 40.0 * x(11)].map(|x| x as u32);
+            let end = [first[0] + 16, first[1] + 5];
+            let through = |k: u64| {
+                let [i, j] = [0, 1].map(|axis| {
+                    let width = f64::from(end[axis] - first[axis]);
+                    f64::from(first[axis]) - 0.5 + width * x(20 + 2 * k + axis as u64)
+                });
+                view.ray(i, j)
+            };
+            let radius = 0.5 * x(12);
+            let aside = through(0).direction.any_orthonormal_vector() * radius * 2.0 * x(13);
+            let centre = through(0).at(5.0 * x(14)) + aside;
+            let normal = corner(15).normalize();
+            let offset = normal.dot(through(1).at(3.0 * x(18) - 6.0 * x(19)));
+            let shapes = [
+                moved(AnyPrimitive::Sphere(Sphere::new(radius)), centre),
+                moved(
+                    AnyPrimitive::Plane(Plane::new(normal.to_array(), offset)),
+                    DVec3::ZERO,
+                ),
+            ];
+            for shape in shapes {
+                let scene = Scene {
+                    shown: vec![shape],
+                    ..Scene::default()
+                };
+                let world = World::new(&scene).expect("a world");
+                let may_meet = world.may_meet(&view.beam(first, end));
+                empty += u32::from(!may_meet);
+                let rays: Vec<Ray> = (0..40).map(through).collect();
+                for found in world.nearest(&rays, Visibility::All) {
+                    assert!(may_meet || found.verdict == Verdict::Miss, "seed {seed}");
+                    met += u32::from(found.verdict == Verdict::Hit);
+                }
+            }
+        }
+        assert!(met > 10_000 && empty > 100, "{met} {empty}");
     }
 
     #[test]

@@ -59,6 +59,12 @@ impl AddAssign for Tracing {
 }
 
 impl Census {
+    /// Counts camera rays that met nothing.
+    pub fn miss(&mut self, rays: usize) {
+        self.primary += rays as u64;
+        self.misses += rays as u64;
+    }
+
     /// What `trace` gives, with the time that it took added to a kind of [`Census::tracing`].
     pub fn timed<T>(
         &mut self,

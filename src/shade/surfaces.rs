@@ -1,7 +1,7 @@
 //! What shading asks of the world.
 
 use crate::scene::Material;
-use crate::trace::{Occlusions, Outcomes, Paint, Rays, Visibility, World};
+use crate::trace::{Beam, Occlusions, Outcomes, Paint, Rays, Visibility, World};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -14,6 +14,11 @@ pub trait Surfaces: Sync {
     /// Finds whether any opaque surface lies on each ray; what casts a tinted shadow or none is passed over. What was in
     /// `found` before is forgotten.
     fn occluded(&self, rays: &Rays, found: &mut Occlusions);
+
+    /// Whether one of the rays of a beam, however far it is followed, may meet anything: it may always be said that it may.
+    fn may_meet(&self, _beam: &Beam) -> bool {
+        true
+    }
 
     /// The materials at a point of the surface of `part`, with their shares.
     fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>>;
@@ -43,6 +48,10 @@ impl Surfaces for World {
 
     fn occluded(&self, rays: &Rays, found: &mut Occlusions) {
         self.occlusions_into(rays, found);
+    }
+
+    fn may_meet(&self, beam: &Beam) -> bool {
+        Self::may_meet(self, beam)
     }
 
     fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>> {

@@ -26,7 +26,7 @@ use super::{Census, Features, Surfaces};
 use crate::field::{Level, Task, run_at};
 use crate::num::{Columns, run};
 use crate::scene::{Fog, Scene, Sky};
-use crate::trace::{Outcomes, Rays, Verdict, Visibility, count};
+use crate::trace::{Beam, Outcomes, Rays, Verdict, Visibility, count};
 use glam::DVec3;
 use std::cell::Cell;
 use std::mem;
@@ -243,6 +243,17 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         census.hits += hits;
         census.unknown += unknown;
         census.misses += rays.len() as u64 - hits - unknown;
+    }
+
+    /// Whether any of the camera rays in a beam may meet anything.
+    pub fn may_meet(&self, beam: &Beam) -> bool {
+        self.surfaces.may_meet(beam)
+    }
+
+    /// What camera rays show that meet nothing, if that is the same for all of them.
+    pub fn backdrop(&self) -> Option<DVec3> {
+        let Sky { horizon, zenith } = self.sky;
+        (horizon == zenith && self.fog.is_none()).then_some(horizon)
     }
 
     /// The colours of the materials that the camera rays hit, without any light, and of the sky, by channel.

@@ -6,6 +6,7 @@
 )]
 
 use super::Rays;
+use super::analytic::HalfSpace;
 use super::bundle::{Bundle, CAPACITY, fold, larger, lesser};
 use super::hierarchy::{BRANCHES, Boxes, Eight};
 use super::vector::place;
@@ -14,7 +15,7 @@ use glam::DVec3;
 
 /// What holds a number of rays: ranges of their origins and directions, and a cone about their mean.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Beam {
+pub struct Beam {
     origins: [DVec3; 2],
     directions: [DVec3; 2],
     paces: [Pace; 3],
@@ -90,36 +91,46 @@ impl Task for Distances<'_> {
 }
 
 impl Beam {
+    /// What holds all rays whose origins and directions lie in these ranges, each from the least to the largest coordinates.
+    /// Directions may have any length.
+    pub fn within(origins: [DVec3; 2], directions: [DVec3; 2]) -> Self {
+        let half = |range: [DVec3; 2]| 0.5 * (range[1] - range[0]).length();
+        Self::new(origins, directions, [half(origins), half(directions)])
+    }
+
     /// The beam of all rays of a bundle.
-    pub fn around(bundle: &Bundle, level: Level) -> Self {
+    pub(super) fn around(bundle: &Bundle, level: Level) -> Self {
         let [origins, directions] = run_at(level, Ranges(bundle));
-        let origin = 0.5 * (origins[0] + origins[1]);
-        let direction = 0.5 * (directions[0] + directions[1]);
-        let from = [origin, direction];
-        let [width, spread] = run_at(level, Distances { bundle, from });
+        let from = [origins, directions].map(|[low, high]| 0.5 * (low + high));
+        let squares = run_at(level, Distances { bundle, from });
+        Self::new(origins, directions, squares.map(f64::sqrt))
+    }
+
+    /// The rays in these ranges that are no farther than these from the means of both.
+    fn new(origins: [DVec3; 2], directions: [DVec3; 2], [width, spread]: [f64; 2]) -> Self {
         // Room for the rounding of the square roots and of places along the rays.
         let room = 1.0 + 1e-12;
         Self {
             origins,
             directions,
             paces: [0, 1, 2].map(|axis| Pace::new(directions[0][axis], directions[1][axis])),
-            origin,
-            direction,
-            width: width.sqrt() * room,
-            spread: spread.sqrt() * room,
+            origin: 0.5 * (origins[0] + origins[1]),
+            direction: 0.5 * (directions[0] + directions[1]),
+            width: width * room,
+            spread: spread * room,
         }
     }
 
     /// Where the first of the rays may enter each of some boxes, if one of them may before `limit`; else infinite. Source:
     /// interval arithmetic as in Boulos, Wald and Shirley 2006.
-    pub fn enters(&self, boxes: &Boxes, limit: f64, level: Level) -> Eight {
+    pub(super) fn enters(&self, boxes: &Boxes, limit: f64, level: Level) -> Eight {
         let beam = self;
         run_at(level, Enters { beam, boxes, limit })
     }
 
     /// As [`Beam::enters`], within a task.
     #[inline(always)]
-    pub fn entered(&self, boxes: &Boxes, limit: f64) -> Eight {
+    pub(super) fn entered(&self, boxes: &Boxes, limit: f64) -> Eight {
         let (mut enter, mut leave) = ([0.0; BRANCHES], [limit; BRANCHES]);
         for axis in 0..3 {
             let (low, high) = (&boxes.low[axis], &boxes.high[axis]);
@@ -157,7 +168,7 @@ impl Beam {
     }
 
     /// A ball that holds every place of the rays from distance `from` to `to`.
-    pub fn ball(&self, from: f64, to: f64) -> (DVec3, f64) {
+    pub(super) fn ball(&self, from: f64, to: f64) -> (DVec3, f64) {
         let centre = self.origin + self.direction * (0.5 * (from + to));
         let across = self.width + self.spread * to;
         let along = 0.5 * (to - from) * self.direction.length();
@@ -167,7 +178,7 @@ impl Beam {
 
     /// The half of the beam that a ray belongs to, if it is cut across where its rays differ most over the distance
     /// `reach`: the first or not.
-    pub fn divide<'a>(&self, reach: f64, rays: &'a Rays) -> impl Fn(&u32) -> bool + 'a {
+    pub(super) fn divide<'a>(&self, reach: f64, rays: &'a Rays) -> impl Fn(&u32) -> bool + 'a {
         let differ = |ends: &[DVec3; 2], scale: f64| {
             let size = (ends[1] - ends[0]) * scale;
             let axis = size
@@ -192,8 +203,21 @@ impl Beam {
         move |number| column[*number as usize] < middle
     }
 
+    /// Whether one of the rays, however far it is followed, may meet a half-space.
+    pub(super) fn may_meet(&self, half: &HalfSpace) -> bool {
+        // The least `n.x` of a range, and the largest number in it.
+        let least = |[low, high]: [DVec3; 2]| {
+            let (a, b) = (half.normal * low, half.normal * high);
+            (a.min(b).element_sum(), a.abs().max(b.abs()).element_sum())
+        };
+        let (height, size) = least(self.origins);
+        let (rise, speed) = least(self.directions);
+        let is_above = height - half.offset > 1e-12 * (size + half.offset.abs());
+        !(is_above && rise > 1e-12 * speed)
+    }
+
     /// How far apart the rays are at distance `t`: the radius of a cut through the beam.
-    pub fn radius(&self, t: f64) -> f64 {
+    pub(super) fn radius(&self, t: f64) -> f64 {
         self.width + self.spread * t
     }
 }

@@ -45,6 +45,36 @@ impl Descent {
     }
 }
 
+/// Asks whether a beam may enter the box of a part: down to the first of them, not along all ways.
+pub(super) struct Meets<'a> {
+    /// The hierarchy.
+    pub hierarchy: &'a Hierarchy,
+    /// The rays, however far they go.
+    pub beam: &'a Beam,
+}
+
+impl Task for Meets<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(self) -> bool {
+        let mut open = Vec::with_capacity(64);
+        open.extend(self.hierarchy.root());
+        while let Some(number) = open.pop() {
+            let node = self.hierarchy.node(number);
+            let entered = self.beam.entered(&node.boxes, f64::INFINITY);
+            let found = bits(|k| entered[k] < f64::INFINITY) & ((1 << node.count) - 1);
+            if found != 0 && node.has_parts {
+                return true;
+            }
+            for k in ones(found) {
+                open.push(node.inside[k % BRANCHES]);
+            }
+        }
+        false
+    }
+}
+
 /// What is needed to go down.
 pub(super) struct Step<'a> {
     /// The hierarchy.

@@ -42,6 +42,7 @@ mod unpruned;
 pub mod vector;
 mod world;
 
+pub use beam::Beam;
 pub use evidence::Witness;
 pub use outcome::{Occlusion, Outcome, Verdict, count};
 pub use part::PartKind;

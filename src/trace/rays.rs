@@ -193,6 +193,11 @@ impl Outcomes {
         self.numbers.resize(count);
     }
 
+    /// What that many rays find that meet nothing.
+    pub fn nothing(count: usize) -> Self {
+        (0..count).map(|_| Outcome::NOTHING).collect()
+    }
+
     /// Says that these rays meet nothing.
     pub(super) fn miss(&mut self, rays: &[u32]) {
         let nothing = Outcome::NOTHING;

@@ -1,7 +1,9 @@
 //! The world: a scene that is ready to be traced.
 
 use super::analytic::{ClosedForm, Crossing};
+use super::beam::Beam;
 use super::bundle::{Bundle, WIDTH, run};
+use super::descent::Meets;
 use super::finding::Finding;
 use super::hierarchy::{Boxes, Hierarchy, clip, stretch};
 use super::join::joined;
@@ -14,7 +16,7 @@ use super::part::{Marched, Part, PartKind, flatten};
 use super::survey::{resolved, survey};
 use super::sweep::Question;
 use super::{Occlusion, Occlusions, Outcome, Outcomes, Ray, Rays, Verdict};
-use crate::field::{Brush, Level, Share, normal, shares};
+use crate::field::{Brush, Level, Share, normal, run_at, shares};
 use crate::scene::{Fault, Material, Method, Node, Scene, Settings, Shadow};
 use glam::DVec3;
 use std::array;
@@ -186,6 +188,18 @@ impl World {
             Outcome { normal, ..outcome }
         });
         *found = outcomes.collect();
+    }
+
+    /// Whether one of the rays of a beam, however far it is followed, may meet anything. Where it says no, none does.
+    pub fn may_meet(&self, beam: &Beam) -> bool {
+        let hierarchy = &self.hierarchy;
+        self.endless
+            .iter()
+            .any(|number| match &self.parts[*number as usize].kind {
+                PartKind::HalfSpace(half) => beam.may_meet(half),
+                _ => true,
+            })
+            || run_at(self.level, Meets { hierarchy, beam })
     }
 
     /// Whether any opaque surface lies on each ray; parts whose shadow is tinted or none are passed over.

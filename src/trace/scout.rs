@@ -72,6 +72,9 @@ const FINE: f32 = 1.0 / (1u32 << 22) as f32;
 /// How many lanes go through a step at once.
 const GROUP: usize = 16;
 
+/// How many lanes go through a loop at once in double precision.
+const WIDE: usize = 8;
+
 /// The lanes of a packet as scouts: distances are from where the rays enter the region.
 struct Scouts {
     place: [Numbers; 3],
@@ -369,88 +372,109 @@ impl Scouts {
     /// Writes back to the packet what the lanes have found.
     #[inline(always)]
     fn report(&self, p: &mut Packet, rules: &Rules) {
+        let found = if rules.any {
+            state::HIT
+        } else {
+            state::ENCLOSING
+        };
+        for first in (0..WIDTH).step_by(WIDE) {
+            self.report_some(p, found, first);
+        }
+    }
+
+    /// As [`Scouts::report`], for the lanes from `first` on; `found` is the state of those that have seen a change of sign.
+    #[inline(always)]
+    fn report_some(&self, p: &mut Packet, found: i64, first: usize) {
         let s = self;
-        for i in 0..WIDTH {
+        // Each question by itself, in double precision: the compiler knows that a lane does one thing only, and of what follows
+        // from that it makes branches.
+        let (mut takes_part, mut is_on, mut arrives) = ([0.0; WIDE], [0.0; WIDE], [0.0; WIDE]);
+        let (mut is_close, mut crosses, mut passed) = ([0.0; WIDE], [0.0; WIDE], [0.0; WIDE]);
+        let mut wide = [[0.0; WIDE]; 5];
+        for k in 0..WIDE {
+            let i = first + k;
             let pace = s.pace[i];
-            let takes_part = pace != pace::IDLE;
-            let is_on = (pace == pace::FRESH) | (pace == pace::STEPPING);
+            let steps = (pace == pace::FRESH) | (pace == pace::STEPPING);
+            takes_part[k] = f64::from(i32::from(pace != pace::IDLE));
+            is_on[k] = f64::from(i32::from(steps));
+            arrives[k] = f64::from(i32::from(pace == pace::ARRIVED));
+            is_close[k] = f64::from(i32::from(pace == pace::CLOSE));
+            crosses[k] = f64::from(i32::from(pace == pace::CROSSED));
+            passed[k] = f64::from(s.passed[i]);
+            wide[0][k] = f64::from(s.t[i]);
+            wide[1][k] = f64::from(s.last_t[i]);
+            wide[2][k] = f64::from(s.last_value[i]);
+            wide[3][k] = f64::from(s.beyond[i]);
+            wide[4][k] = f64::from(s.known[i]);
+        }
+        let [ways, last_ways, lows, highs, knowns] = &wide;
+        for k in 0..WIDE {
+            let i = first + k;
+            let (takes_part, is_on) = (takes_part[k] != 0.0, is_on[k] != 0.0);
             let (start, limit) = (p.start[i], p.limit[i]);
-            let had_last = p.last_t[i] > f64::NEG_INFINITY;
+            // Read before anything is chosen: else lanes choose what to read.
+            let (before_t, before) = (p.last_t[i], p.last_value[i]);
+            let (was_t, was_known, was_side) = (p.t[i], p.known[i], p.side[i]);
+            let (was_high_t, was_high) = (p.high_t[i], p.high_value[i]);
+            let (was, narrowings) = (p.state[i], p.narrowings[i]);
+            let had_last = before_t > f64::NEG_INFINITY;
             // Nothing that was rounded takes the place of what was known before.
-            let has_passed = s.passed[i] != 0;
+            let has_passed = passed[k] != 0.0;
             let is_kept = takes_part & !has_passed;
-            let t = start + f64::from(s.t[i]);
-            let last_t = start + f64::from(s.last_t[i]);
-            let low_t = if is_kept { p.last_t[i] } else { last_t };
-            let (low, high) = (f64::from(s.last_value[i]), f64::from(s.beyond[i]));
-            let has_crossed = (pace == pace::CROSSED) & (t <= limit);
-            let is_close = (pace == pace::CLOSE) | ((pace == pace::CROSSED) & (t > limit));
+            let t = start + ways[k];
+            let last_t = start + last_ways[k];
+            let low_t = if is_kept { before_t } else { last_t };
+            let (low, high) = (lows[k], highs[k]);
+            let has_crossed = (crosses[k] != 0.0) & (t <= limit);
+            let is_close = (is_close[k] != 0.0) | ((crosses[k] != 0.0) & (t > limit));
             let probe = first_probe(p, i, (low_t, low), (t, high));
-            let found = if rules.any {
-                state::HIT
-            } else {
-                state::ENCLOSING
-            };
             // A lane that is close starts anew from where its way is known to be free.
             let is_rough = p.rough[i] != 0;
-            let anew = if is_kept & had_last & !is_rough {
+            let marches_on = is_kept & had_last & !is_rough;
+            let anew = if marches_on {
                 state::MARCHING
             } else {
                 state::FRESH
             };
             let becomes = if has_crossed { found } else { anew };
-            let becomes = if pace == pace::ARRIVED {
+            let becomes = if arrives[k] != 0.0 {
                 state::ARRIVED
             } else {
                 becomes
             };
             let becomes = if is_on { state::FAR } else { becomes };
-            let known = if s.known[i] < s.t[i] {
-                s.known[i]
+            let known = if knowns[k] < ways[k] {
+                knowns[k]
             } else {
-                s.t[i]
+                ways[k]
             };
-            let from = if is_kept & had_last & (is_rough | is_on) {
-                p.known[i]
-            } else {
-                p.t[i]
-            };
-            let from = if is_kept {
-                from
-            } else {
-                start + f64::from(known)
-            };
+            let stays = is_kept & had_last & (is_rough | is_on);
+            let from = if stays { was_known } else { was_t };
+            let from = if is_kept { from } else { start + known };
             let next = if has_crossed { probe } else { t };
-            let next = if is_close | (is_on & is_kept) {
-                from
-            } else {
-                next
-            };
-            let behind = if is_kept { p.last_t[i] } else { last_t };
+            let goes_back = is_close | (is_on & is_kept);
+            let next = if goes_back { from } else { next };
             let is_lost = is_close & (has_passed | is_rough);
-            let behind = if is_lost { f64::NEG_INFINITY } else { behind };
+            let behind = if is_lost { f64::NEG_INFINITY } else { low_t };
             let side = if low < 0.0 { -1.0 } else { 1.0 };
-            p.t[i] = if takes_part { next } else { p.t[i] };
-            p.last_t[i] = if takes_part { behind } else { p.last_t[i] };
-            p.last_value[i] = if has_passed { low } else { p.last_value[i] };
-            p.known[i] = if has_passed {
-                start + f64::from(s.known[i])
-            } else {
-                p.known[i]
-            };
-            p.rough[i] |= i64::from(has_passed);
-            p.side[i] = if has_passed { side } else { p.side[i] };
-            p.high_t[i] = if has_crossed { t } else { p.high_t[i] };
-            p.high_value[i] = if has_crossed { high } else { p.high_value[i] };
-            p.narrowings[i] = if takes_part { 0 } else { p.narrowings[i] };
-            p.state[i] = if takes_part { becomes } else { p.state[i] };
-            p.close[i] |= i64::from(pace == pace::CLOSE);
-            p.steps[i] = if takes_part {
-                i64::from(s.steps[i])
-            } else {
-                p.steps[i]
-            };
+            let free = start + knowns[k];
+            p.t[i] = if takes_part { next } else { was_t };
+            p.last_t[i] = if takes_part { behind } else { before_t };
+            p.last_value[i] = if has_passed { low } else { before };
+            p.known[i] = if has_passed { free } else { was_known };
+            p.side[i] = if has_passed { side } else { was_side };
+            p.high_t[i] = if has_crossed { t } else { was_high_t };
+            p.high_value[i] = if has_crossed { high } else { was_high };
+            p.narrowings[i] = if takes_part { 0 } else { narrowings };
+            p.state[i] = if takes_part { becomes } else { was };
+        }
+        for k in 0..WIDE {
+            let i = first + k;
+            p.rough[i] |= i64::from(s.passed[i]);
+            p.close[i] |= i64::from(s.pace[i] == pace::CLOSE);
             p.evaluations[i] += i64::from(s.evaluations[i]);
+            // Those of lanes that don't take part are what they were.
+            p.steps[i] = i64::from(s.steps[i]);
         }
     }
 }

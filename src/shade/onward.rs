@@ -17,6 +17,7 @@ use super::refract::{bent, transmitted_cosine};
 use super::wave::{Meetings, Wave, Waves};
 use super::{Census, FAINTEST, Surface};
 use crate::field::{Level, Task, run_at};
+use crate::num::run;
 use crate::trace::Footprint;
 use crate::trace::vector::place;
 use glam::DVec3;
@@ -189,10 +190,13 @@ impl Senders {
 
     /// Takes what is known of the rays and their hits.
     fn gather(&mut self, wave: &Meetings) {
-        let numbers = &self.numbers;
-        let take = |column: &mut Column, source: &[f64]| {
-            for (number, i) in column.iter_mut().zip(numbers) {
-                *number = source[*i as usize];
+        let (numbers, run) = (&self.numbers, run(&self.numbers));
+        let take = |column: &mut Column, source: &[f64]| match &run {
+            Some(run) => column[..numbers.len()].copy_from_slice(&source[run.clone()]),
+            None => {
+                for (number, i) in column.iter_mut().zip(numbers) {
+                    *number = source[*i as usize];
+                }
             }
         };
         let (rays, outcomes) = (wave.rays, wave.outcomes);

@@ -248,6 +248,59 @@ impl Bundle {
     }
 }
 
+/// Up to [`WIDTH`] rays of a bundle, for lanes: those without a ray repeat the first, so that they cost nothing unusual.
+pub(super) struct Choice {
+    places: [usize; WIDTH],
+    /// Where they begin if they are [`WIDTH`] neighbours.
+    first: Option<usize>,
+}
+
+impl Choice {
+    /// These rays, at least one, in any order.
+    #[inline(always)]
+    pub fn of(rays: &[u32]) -> Self {
+        let mut places = [0; WIDTH];
+        for lane in 0..WIDTH {
+            let ray = rays[if lane < rays.len() { lane } else { 0 }];
+            places[lane] = ray as usize % CAPACITY;
+        }
+        let first = places[0];
+        let mut others = 0;
+        for lane in 0..WIDTH {
+            others |= places[lane] ^ (first + lane);
+        }
+        let are_neighbours = others == 0;
+        Self {
+            places,
+            first: are_neighbours.then_some(first.min(CAPACITY - WIDTH)),
+        }
+    }
+
+    /// Which ray each lane has.
+    #[inline(always)]
+    pub fn rays(&self) -> [u32; WIDTH] {
+        let mut rays = [0; WIDTH];
+        for lane in 0..WIDTH {
+            rays[lane] = self.places[lane] as u32;
+        }
+        rays
+    }
+
+    /// Their numbers in a column.
+    #[inline(always)]
+    pub fn picked(&self, column: &Column) -> [f64; WIDTH] {
+        let mut lanes = [0.0; WIDTH];
+        if let Some(first) = self.first {
+            lanes.copy_from_slice(&column[first..first + WIDTH]);
+            return lanes;
+        }
+        for lane in 0..WIDTH {
+            lanes[lane] = column[self.places[lane] % CAPACITY];
+        }
+        lanes
+    }
+}
+
 /// The range of numbers that follow one another; none if they don't. They are in order.
 pub(super) fn run(numbers: &[u32]) -> Option<std::ops::Range<usize>> {
     let (first, last) = (*numbers.first()? as usize, *numbers.last()? as usize);
@@ -349,18 +402,26 @@ impl Task for Conclude<'_> {
 /// Makes unit normals of the gradients of a packet of hits.
 #[inline(always)]
 fn normalise(b: &mut Bundle, first: usize) {
-    for i in first..first + WIDTH {
+    // As wide as the other lanes: bytes beside numbers would be taken lane by lane.
+    let (mut hits, mut open) = ([0.0; WIDTH], [0u64; WIDTH]);
+    for lane in 0..WIDTH {
+        hits[lane] = f64::from(b.meets[first + lane]);
+    }
+    for lane in 0..WIDTH {
+        let i = first + lane;
         let [x, y, z] = [b.gradient[0][i], b.gradient[1][i], b.gradient[2][i]];
         let scale = 1.0 / (x * x + y * y + z * z).sqrt();
-        let is_scale = (b.meets[i] != 0) & (scale > 0.0) & (scale <= f64::MAX);
-        let mut is_open = b.meets[i] != 0;
-        for axis in 0..3 {
-            let unit = b.gradient[axis][i] * scale;
-            let unit = if is_scale { unit } else { 0.0 };
-            is_open &= unit == 0.0;
-            b.gradient[axis][i] = unit;
-        }
-        b.meets[i] = u8::from(is_open);
+        let is_hit = hits[lane] != 0.0;
+        let is_scale = is_hit & (scale > 0.0) & (scale <= f64::MAX);
+        let [x, y, z] = [x * scale, y * scale, z * scale];
+        let x = if is_scale { x } else { 0.0 };
+        let y = if is_scale { y } else { 0.0 };
+        let z = if is_scale { z } else { 0.0 };
+        (b.gradient[0][i], b.gradient[1][i], b.gradient[2][i]) = (x, y, z);
+        open[lane] = u64::from(is_hit & (x == 0.0) & (y == 0.0) & (z == 0.0));
+    }
+    for lane in 0..WIDTH {
+        b.meets[first + lane] = open[lane] as u8;
     }
 }
 
@@ -542,5 +603,26 @@ impl<F: ClosedForm> Enter<'_, F> {
             sum += taken[lane];
         }
         sum > 0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lanes_have_the_numbers_of_the_rays_that_were_chosen() {
+        let column: Column = std::array::from_fn(|i| i as f64);
+        let neighbours: Vec<u32> = (64..96).collect();
+        let mut swapped = neighbours.clone();
+        swapped.swap(3, 20);
+        let ends: Vec<u32> = (0..31).map(|i| 2 * i).chain([31]).collect();
+        for rays in [neighbours, swapped, ends, vec![7], (224..255).collect()] {
+            let choice = Choice::of(&rays);
+            let lane = |k: usize| rays[if k < rays.len() { k } else { 0 }];
+            assert_eq!(choice.rays(), std::array::from_fn(lane));
+            let numbers = choice.picked(&column);
+            assert_eq!(numbers, std::array::from_fn(|k| f64::from(lane(k))));
+        }
     }
 }

@@ -13,7 +13,7 @@
 )]
 
 use super::beam::Beam;
-use super::bundle::{Bundle, WIDTH};
+use super::bundle::{Bundle, Choice, WIDTH};
 use super::chord::{Chord, Convex, Solid, with_solid};
 use super::hierarchy::{BRANCHES, Boxes};
 use super::packet::Lane;
@@ -275,12 +275,9 @@ impl Verge {
 pub(super) fn lines(bundle: &Bundle, rays: &[u32]) -> Lines {
     let mut lines = [[0.0; WIDTH]; 6];
     let columns = bundle.origin.iter().chain(&bundle.direction);
+    let choice = Choice::of(rays);
     for (line, column) in lines.iter_mut().zip(columns) {
-        for lane in 0..WIDTH {
-            // Lanes without a ray repeat the first.
-            let ray = rays[if lane < rays.len() { lane } else { 0 }];
-            line[lane] = column[ray as usize];
-        }
+        *line = choice.picked(column);
     }
     lines
 }
@@ -521,6 +518,12 @@ impl Walk<'_> {
         }
     }
 
+    /// Whether what goes on is a solid that no ray meets, so that all are outside of it wherever they are.
+    #[inline(always)]
+    fn is_missed(&self, tree: &Tree) -> bool {
+        matches!(tree, Tree::Solid(leaf) if !self.is_met[*leaf])
+    }
+
     /// The nearest of the places that the children give.
     fn nearest(&self, children: &[Tree], t: &mut Lane, to_outside: impl Fn(usize) -> bool) -> bool {
         let from = *t;
@@ -549,6 +552,9 @@ impl Walk<'_> {
         for _ in 0..MOST_PASSES {
             let before = *t;
             for (k, child) in children.iter().enumerate() {
+                if to_outside(k) && self.is_missed(child) {
+                    continue;
+                }
                 if !self.go(child, t, to_outside(k)) {
                     return false;
                 }

@@ -5,7 +5,7 @@
     reason = "lanes run through many arrays side by side"
 )]
 
-use super::bundle::{Bundle, WIDTH};
+use super::bundle::{Bundle, Choice, WIDTH};
 use crate::field::{Closure, Task, Walked};
 use crate::num::{Dual, F64x32, Lanes, Vec3};
 
@@ -35,12 +35,13 @@ impl Task for Gradient<'_> {
             rays,
         } = self;
         let mut places = [[0.0; WIDTH]; 3];
-        for lane in 0..WIDTH {
-            let ray = rays[if lane < rays.len() { lane } else { 0 }] as usize;
-            let t = bundle.t[ray];
-            for axis in 0..3 {
-                let (o, d) = (bundle.origin[axis][ray], bundle.direction[axis][ray]);
-                places[axis][lane] = o + d * t;
+        let choice = Choice::of(rays);
+        let t = choice.picked(&bundle.t);
+        for axis in 0..3 {
+            let origin = choice.picked(&bundle.origin[axis]);
+            let direction = choice.picked(&bundle.direction[axis]);
+            for lane in 0..WIDTH {
+                places[axis][lane] = origin[lane] + direction[lane] * t[lane];
             }
         }
         let mut gradient = [Lanes([0.0; WIDTH]); 3];

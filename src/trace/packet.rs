@@ -6,7 +6,8 @@
 )]
 
 use super::Verdict;
-use super::bundle::{Bundle, CAPACITY, Column, WIDTH};
+use super::bits::ones;
+use super::bundle::{Bundle, Choice, WIDTH};
 use super::hierarchy::stretch;
 use super::method::{Ending, finest};
 use super::part::Marched;
@@ -51,6 +52,12 @@ pub(super) mod state {
     #[inline(always)]
     pub fn is_walking(state: i64) -> bool {
         state == FRESH || state == MARCHING || state == ARRIVED
+    }
+
+    /// Whether what it found, or did not find, is to be looked at.
+    #[inline(always)]
+    pub fn has_ended(state: i64) -> bool {
+        state > ARRIVED && state != FAR
     }
 
     /// Whether it wants another value.
@@ -202,12 +209,9 @@ impl Task for Load<'_> {
             rules,
         } = self;
         p.count = rays.len();
-        let mut places = [0; WIDTH];
+        let choice = Choice::of(rays);
+        p.ray = choice.rays();
         for lane in 0..WIDTH {
-            // Lanes without a ray repeat the first, so that they cost nothing unusual.
-            let ray = rays[if lane < rays.len() { lane } else { 0 }];
-            p.ray[lane] = ray;
-            places[lane] = ray as usize % CAPACITY;
             p.state[lane] = if lane < rays.len() {
                 state::FRESH
             } else {
@@ -215,14 +219,14 @@ impl Task for Load<'_> {
             };
         }
         for axis in 0..3 {
-            p.origin[axis] = picked(&bundle.origin[axis], &places);
-            p.direction[axis] = picked(&bundle.direction[axis], &places);
+            p.origin[axis] = choice.picked(&bundle.origin[axis]);
+            p.direction[axis] = choice.picked(&bundle.direction[axis]);
         }
-        p.footprint = picked(&bundle.footprint, &places);
-        p.spread = picked(&bundle.spread, &places);
-        let enter = picked(&bundle.enter, &places);
-        let leave = picked(&bundle.leave, &places);
-        let t_max = picked(&bundle.t_max, &places);
+        p.footprint = choice.picked(&bundle.footprint);
+        p.spread = choice.picked(&bundle.spread);
+        let enter = choice.picked(&bundle.enter);
+        let leave = choice.picked(&bundle.leave);
+        let t_max = choice.picked(&bundle.t_max);
         for lane in 0..WIDTH {
             let [x, y, z] = [&p.origin[0], &p.origin[1], &p.origin[2]];
             let origin = larger(larger(x[lane].abs(), y[lane].abs()), z[lane].abs());
@@ -368,16 +372,6 @@ pub(super) fn count(states: &[i64; WIDTH], is_such: impl Fn(i64) -> bool) -> i64
     counts.into_iter().sum()
 }
 
-/// The numbers of the rays at these places.
-#[inline(always)]
-fn picked(column: &Column, places: &[usize; WIDTH]) -> Lane {
-    let mut lanes = [0.0; WIDTH];
-    for lane in 0..WIDTH {
-        lanes[lane] = column[places[lane] % CAPACITY];
-    }
-    lanes
-}
-
 #[inline(always)]
 fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
@@ -429,13 +423,9 @@ impl Packet {
 
     /// The lanes that are in such a state now.
     fn lanes(&self, is_such: fn(i64) -> bool) -> impl Iterator<Item = usize> + use<> {
-        let bits = (0..WIDTH).map(|lane| u32::from(is_such(self.state[lane])) << lane);
-        let mut left = bits.fold(0, |all, bit| all | bit);
-        std::iter::from_fn(move || {
-            let first = (left != 0).then(|| left.trailing_zeros() as usize);
-            left &= left.wrapping_sub(1);
-            first
-        })
+        ones((0..WIDTH).fold(0, |set, lane| {
+            set | u32::from(is_such(self.state[lane])) << lane
+        }))
     }
 
     /// Lets every lane walk by itself.
@@ -455,7 +445,7 @@ impl Packet {
     /// Which lanes have found something since the last time, with the rare ones walked to their ends one by one. Those that
     /// are stuck go on.
     pub fn found(&mut self, rules: &Rules, marched: &Marched, sink: &mut Vec<Found>) {
-        for lane in 0..WIDTH {
+        for lane in self.lanes(state::has_ended) {
             let ending = match self.state[lane] {
                 state::HIT => self.hit(lane),
                 state::REFUTED => self.refuted(lane, marched),

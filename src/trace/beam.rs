@@ -50,6 +50,35 @@ impl Task for Ranges<'_> {
     }
 }
 
+/// The range of where a bundle's rays end.
+struct Ends<'a>(&'a Bundle);
+
+impl Task for Ends<'_> {
+    /// The least and the largest.
+    type Output = [DVec3; 2];
+
+    #[inline(always)]
+    fn run(self) -> [DVec3; 2] {
+        let b = self.0;
+        let mut range = [DVec3::ZERO; 2];
+        let mut ends = [0.0; CAPACITY];
+        for axis in 0..3 {
+            for i in 0..b.lanes() {
+                ends[i] = b.origin[axis][i] + b.direction[axis][i] * b.t_max[i];
+            }
+            let ends = &ends[..b.lanes()];
+            range[0][axis] = fold(ends, f64::INFINITY, lesser);
+            range[1][axis] = fold(ends, f64::NEG_INFINITY, larger);
+        }
+        let t_max = fold(&b.t_max[..b.lanes()], 0.0, larger);
+        let size = range[0].abs().max(range[1].abs()) + DVec3::splat(t_max);
+        [range[0] - ENDS * size, range[1] + ENDS * size]
+    }
+}
+
+/// Room for the rounding of a place on a ray, as a share of its coordinates and of the way to it.
+const ENDS: f64 = 8.0 * f64::EPSILON;
+
 /// Finds where a beam enters boxes.
 struct Enters<'a> {
     beam: &'a Beam,
@@ -104,6 +133,17 @@ impl Beam {
         let from = [origins, directions].map(|[low, high]| 0.5 * (low + high));
         let squares = run_at(level, Distances { bundle, from });
         Self::new(origins, directions, squares.map(f64::sqrt))
+    }
+
+    /// The same rays from their ends back, if these lie closer together than where the rays start: so it is with shadow rays. All
+    /// ends are finite.
+    pub(super) fn back(&self, bundle: &Bundle, level: Level) -> Option<Self> {
+        let ends = run_at(level, Ends(bundle));
+        let width = |[low, high]: [DVec3; 2]| (high - low).max_element();
+        (width(ends) < width(self.origins)).then(|| {
+            let [low, high] = self.directions;
+            Self::within(ends, [-high, -low])
+        })
     }
 
     /// The rays in these ranges that are no farther than these from the means of both.
@@ -300,6 +340,45 @@ mod tests {
             }
         }
         assert!(entered > 300, "{entered}");
+    }
+
+    #[test]
+    fn what_a_ray_enters_before_its_end_its_beam_enters_from_there() {
+        let (mut entered, mut nearer) = (0, 0);
+        for seed in 0..2000u64 {
+            let x = |j: u64| 3.0 * random(seed * 31 + j) - 1.5;
+            // They end near one place.
+            let end = 4.0 * DVec3::new(x(4), x(5), x(6));
+            let aimed = |ray: Ray| {
+                let way = end - ray.origin;
+                Ray {
+                    direction: way.normalize(),
+                    t_max: way.length() * (1.0 - 0.01 * random(seed)),
+                    ..ray
+                }
+            };
+            let rays: Vec<Ray> = rays(seed).into_iter().map(aimed).collect();
+            let numbers: Vec<u32> = (0..rays.len() as u32).collect();
+            let (mut bundle, level) = (Bundle::new(), Level::best());
+            bundle.fill(&rays.iter().collect(), &numbers);
+            let Some(beam) = Beam::around(&bundle, level).back(&bundle, level) else {
+                continue;
+            };
+            let bounds = Bounds::centred([0.5 * random(seed + 7); 3]).translate([x(1), x(2), x(3)]);
+            let boxes = Boxes::new([bounds].into_iter());
+            let limit = rays.iter().map(|ray| ray.t_max).fold(0.0, f64::max);
+            let [found, ..] = beam.enters(&boxes, limit, level);
+            nearer += u32::from(found == f64::INFINITY);
+            for ray in &rays {
+                let inverse = ray.direction.recip();
+                if let Some((_, leave)) = clip(ray.origin, inverse, &bounds, ray.t_max) {
+                    entered += 1;
+                    let way = (ray.t_max - leave).max(0.0);
+                    assert!(found <= way + 1e-12, "seed {seed}: {found}, {way}");
+                }
+            }
+        }
+        assert!(entered > 300 && nearer > 300, "{entered} {nearer}");
     }
 
     #[test]

@@ -32,6 +32,9 @@ const CROWD: usize = 36;
 /// Of more parts than this each is asked only of the packets that may meet it.
 const SOME: usize = 4;
 
+/// In a world of more parts than this, shadow rays are followed back from the lamp where they are looked for.
+const MANY: usize = 16;
+
 /// A bundle whose beam meets more nodes and parts than this on one level of the hierarchy is divided there.
 const THRONG: usize = 64;
 
@@ -141,12 +144,16 @@ impl World {
         scratch.bundle.fill(rays, numbers);
         let beam = Beam::around(&scratch.bundle, self.level);
         let limit = self.farthest(scratch);
+        let is_aimed = question.any && limit < f64::INFINITY && self.parts.len() > MANY;
+        let back = is_aimed.then(|| beam.back(&scratch.bundle, self.level));
+        let back = back.flatten();
+        let asked = back.as_ref().unwrap_or(&beam);
         let most = if numbers.len() > 1 {
             THRONG
         } else {
             usize::MAX
         };
-        let is_down = self.meet(&beam, limit, known.clone(), most, question, scratch);
+        let is_down = self.meet(asked, limit, known.clone(), most, question, scratch);
         if !is_down || self.is_crowd(&beam, numbers.len(), &scratch.descent.met) {
             let half = divide(numbers, beam.divide(self.horizon, rays), &mut scratch.aside);
             if half > 0 && half < numbers.len() {
@@ -160,7 +167,7 @@ impl World {
                 return;
             }
             if !is_down {
-                self.meet(&beam, limit, known, usize::MAX, question, scratch);
+                self.meet(asked, limit, known, usize::MAX, question, scratch);
             }
         }
         // What blocked rays of this sweep before is asked first.

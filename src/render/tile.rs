@@ -142,7 +142,7 @@ impl Desk {
         tally: &mut Tally,
     ) {
         if is_empty {
-            self.outcomes = Outcomes::nothing(self.rays.len());
+            self.outcomes.nothing(self.rays.len());
             return tally.miss(self.rays.len());
         }
         let census = &mut tally.census;

@@ -100,10 +100,8 @@ impl View {
         // The mean of two corners, and how far the plane through all four goes from it along each axis.
         let [left, top] = self.screen(side(corner[0]), side(corner[1]));
         let [right, bottom] = self.screen(side(end[0]), side(end[1]));
-        let [x, y] = [(left, right), (bottom, top)].map(|(low, high)| {
-            let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
-            (middle, half)
-        });
+        let [x, y] = [(left, right), (bottom, top)]
+            .map(|(low, high)| (0.5 * (low + high), 0.5 * (high - low)));
         let middle = aside[0] + self.right * x.0 + self.up * y.0;
         let half = (self.right * x.1).abs() + (self.up * y.1).abs();
         // Room for the rounding of places on the screen and of what is normalised.

@@ -193,9 +193,11 @@ impl Outcomes {
         self.numbers.resize(count);
     }
 
-    /// What that many rays find that meet nothing.
-    pub fn nothing(count: usize) -> Self {
-        (0..count).map(|_| Outcome::NOTHING).collect()
+    /// Makes it what that many rays find that meet nothing.
+    pub fn nothing(&mut self, count: usize) {
+        self.resize(count);
+        let all: Vec<u32> = (0..count as u32).collect();
+        self.miss(&all);
     }
 
     /// Says that these rays meet nothing.

@@ -1,6 +1,6 @@
 //! Tables of numbers, column by column in one piece of memory.
 
-use std::ops::Range;
+use super::Rows;
 use std::{array, mem};
 
 /// `N` columns of one length.
@@ -96,15 +96,11 @@ impl<const N: usize> Columns<N> {
     /// # Panics
     /// If a column is too short.
     pub fn pick(&mut self, columns: [&[f64]; N], rows: &[u32]) {
-        if let Some(run) = run(rows) {
-            return self.append(columns.map(|column| &column[run.clone()]));
-        }
         let first = self.rows;
         self.grow(rows.len());
+        let rows = Rows::of(rows);
         for (target, source) in self.columns_mut().into_iter().zip(columns) {
-            for (number, row) in target[first..].iter_mut().zip(rows) {
-                *number = source[*row as usize];
-            }
+            rows.take(source, &mut target[first..]);
         }
     }
 
@@ -133,15 +129,6 @@ impl<const N: usize> Columns<N> {
         }
         self.rows = rows;
     }
-}
-
-/// The range of rows that follow one another; none if they don't.
-#[inline(always)]
-pub fn run(rows: &[u32]) -> Option<Range<usize>> {
-    let first = rows.first().map_or(0, |row| *row);
-    // All are counted: a loop without an early end compares many at once.
-    let others = rows.iter().zip(first..).filter(|(a, b)| **a != *b);
-    (others.count() == 0).then_some(first as usize..first as usize + rows.len())
 }
 
 impl<const N: usize> Default for Columns<N> {

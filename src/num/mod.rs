@@ -15,6 +15,7 @@ mod lattice;
 mod lattice_range;
 mod number;
 mod rounded;
+mod rows;
 #[cfg(test)]
 pub(crate) mod samples;
 mod scalar;
@@ -22,12 +23,13 @@ mod steep;
 mod vector;
 
 pub use bent::Bent;
-pub use columns::{Columns, run};
+pub use columns::Columns;
 pub use dual::Dual;
 pub use interval::Interval;
 pub use lanes::{F32x32, F32x64, F64x32, Lanes};
 pub use lattice::Lattice;
 pub use number::Number;
 pub use rounded::Rounded;
+pub use rows::Rows;
 pub use steep::Steep;
 pub use vector::Vec3;

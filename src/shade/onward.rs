@@ -17,7 +17,7 @@ use super::refract::{bent, transmitted_cosine};
 use super::wave::{Meetings, Wave, Waves};
 use super::{Census, FAINTEST, Surface};
 use crate::field::{Level, Task, run_at};
-use crate::num::run;
+use crate::num::Rows;
 use crate::trace::Footprint;
 use crate::trace::vector::place;
 use glam::DVec3;
@@ -190,15 +190,7 @@ impl Senders {
 
     /// Takes what is known of the rays and their hits.
     fn gather(&mut self, wave: &Meetings) {
-        let (numbers, run) = (&self.numbers, run(&self.numbers));
-        let take = |column: &mut Column, source: &[f64]| match &run {
-            Some(run) => column[..numbers.len()].copy_from_slice(&source[run.clone()]),
-            None => {
-                for (number, i) in column.iter_mut().zip(numbers) {
-                    *number = source[*i as usize];
-                }
-            }
-        };
+        let rows = Rows::of(&self.numbers);
         let (rays, outcomes) = (wave.rays, wave.outcomes);
         for (columns, sources) in [
             (&mut self.incident, rays.direction()),
@@ -207,14 +199,14 @@ impl Senders {
             (&mut self.outward, outcomes.normal()),
         ] {
             for (column, source) in columns.iter_mut().zip(sources) {
-                take(column, source);
+                rows.take(source, column);
             }
         }
-        take(&mut self.t, outcomes.t());
-        take(&mut self.error, outcomes.error());
+        rows.take(outcomes.t(), &mut self.t);
+        rows.take(outcomes.error(), &mut self.error);
         let [width, spread] = rays.footprint();
-        take(&mut self.width, width);
-        take(&mut self.spread, spread);
+        rows.take(width, &mut self.width);
+        rows.take(spread, &mut self.spread);
     }
 
     /// Adds rays of one kind to their next waves; gives how many. Without `beyond`, they travel in what the hits' rays do.

@@ -24,7 +24,7 @@ use super::sky::radiance;
 use super::wave::{Meetings, Paths, Wave, Waves};
 use super::{Census, Features, Surfaces};
 use crate::field::{Level, Task, run_at};
-use crate::num::{Columns, run};
+use crate::num::{Columns, Rows};
 use crate::scene::{Fog, Scene, Sky};
 use crate::trace::{Beam, Outcomes, Rays, Verdict, Visibility, count};
 use glam::DVec3;
@@ -97,19 +97,9 @@ impl Task for Brighten<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let samples = self.samples;
-        let run = run(samples);
+        let rows = Rows::of(self.samples);
         for (sums, light) in self.sums.into_iter().zip(self.light) {
-            if let Some(run) = run.clone() {
-                sums[run]
-                    .iter_mut()
-                    .zip(light)
-                    .for_each(|(sum, x)| *sum += x);
-            } else {
-                for (sample, x) in samples.iter().zip(light) {
-                    sums[*sample as usize] += x;
-                }
-            }
+            rows.add(sums, light);
         }
     }
 }

@@ -13,7 +13,7 @@ use super::vector::place;
 use super::{Rays, Verdict};
 use crate::catalogue::Bounds;
 use crate::field::{Level, Task, run_at};
-use crate::num::F64x32;
+use crate::num::{F64x32, Rows};
 use std::mem;
 
 /// How many rays a bundle holds: a block of 16 x 16 pixels.
@@ -107,16 +107,9 @@ impl Bundle {
     pub fn fill(&mut self, rays: &Rays, numbers: &[u32]) {
         self.count = numbers.len();
         let n = self.lanes();
-        let run = run(numbers);
+        let rows = Rows::in_order(numbers);
         for (column, source) in self.columns_mut().into_iter().zip(rays.columns()) {
-            match &run {
-                Some(run) => column[..numbers.len()].copy_from_slice(&source[run.clone()]),
-                None => {
-                    for (i, number) in numbers.iter().enumerate() {
-                        column[i] = source[*number as usize];
-                    }
-                }
-            }
+            rows.take(source, column);
             // Lanes without a ray repeat the first.
             let first = column[0];
             column[numbers.len()..n].fill(first);
@@ -299,12 +292,6 @@ impl Choice {
         }
         lanes
     }
-}
-
-/// The range of numbers that follow one another; none if they don't. They are in order.
-pub(super) fn run(numbers: &[u32]) -> Option<std::ops::Range<usize>> {
-    let (first, last) = (*numbers.first()? as usize, *numbers.last()? as usize);
-    (last - first + 1 == numbers.len()).then_some(first..last + 1)
 }
 
 /// Finds the reciprocals of the directions.

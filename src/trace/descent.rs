@@ -7,6 +7,7 @@ use super::beam::Beam;
 use super::bits::{bits, ones};
 use super::hierarchy::{BRANCHES, Hierarchy};
 use crate::field::{Level, Task, run_at};
+use std::ops::ControlFlow;
 
 /// What a beam has met on its way down.
 #[derive(Default)]
@@ -58,20 +59,10 @@ impl Task for Meets<'_> {
 
     #[inline(always)]
     fn run(self) -> bool {
-        let mut open = Vec::with_capacity(64);
-        open.extend(self.hierarchy.root());
-        while let Some(number) = open.pop() {
-            let node = self.hierarchy.node(number);
-            let entered = self.beam.entered(&node.boxes, f64::INFINITY);
-            let found = bits(|k| entered[k] < f64::INFINITY) & ((1 << node.count) - 1);
-            if found != 0 && node.has_parts {
-                return true;
-            }
-            for k in ones(found) {
-                open.push(node.inside[k % BRANCHES]);
-            }
-        }
-        false
+        self.hierarchy.visit(
+            |boxes| self.beam.entered(boxes, f64::INFINITY),
+            |_, _| ControlFlow::Break(()),
+        )
     }
 }
 

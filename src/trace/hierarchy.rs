@@ -6,6 +6,7 @@
 
 use crate::catalogue::Bounds;
 use glam::DVec3;
+use std::ops::ControlFlow;
 
 /// How many boxes a node has: as many as lanes ask at once.
 pub(super) const BRANCHES: usize = super::bits::LANES;
@@ -133,8 +134,13 @@ impl Hierarchy {
     }
 
     /// Calls `visit` with every part whose box `enters` finds met, and with where: it gives for each box of a node where that
-    /// is entered, infinite if it is not.
-    pub fn visit(&self, enters: impl Fn(&Boxes) -> Eight, mut visit: impl FnMut(u32, f64)) {
+    /// is entered, infinite if it is not. Ends where `visit` says so, and gives whether it did.
+    #[inline(always)]
+    pub fn visit(
+        &self,
+        enters: impl Fn(&Boxes) -> Eight,
+        mut visit: impl FnMut(u32, f64) -> ControlFlow<()>,
+    ) -> bool {
         let mut open: Vec<u32> = Vec::with_capacity(64);
         open.extend(self.root());
         while let Some(number) = open.pop() {
@@ -144,13 +150,14 @@ impl Hierarchy {
                 if enter == f64::INFINITY {
                     continue;
                 }
-                if node.has_parts {
-                    visit(*inside, enter);
-                } else {
+                if !node.has_parts {
                     open.push(*inside);
+                } else if visit(*inside, enter).is_break() {
+                    return true;
                 }
             }
         }
+        false
     }
 }
 
@@ -223,7 +230,20 @@ mod tests {
             let items: Vec<Item> = (0..n).map(|k| (k, bounds(k))).collect();
             let hierarchy = Hierarchy::new(&items);
             let mut found = Vec::new();
-            hierarchy.visit(|_| [0.0; BRANCHES], |part, _| found.push(part));
+            let is_cut = hierarchy.visit(
+                |_| [0.0; BRANCHES],
+                |part, _| {
+                    found.push(part);
+                    ControlFlow::Continue(())
+                },
+            );
+            assert!(!is_cut);
+            let mut first = 0;
+            let stop = |_, _| {
+                first += 1;
+                ControlFlow::Break(())
+            };
+            assert!(hierarchy.visit(|_| [0.0; BRANCHES], stop) && first == 1);
             found.sort_unstable();
             assert_eq!(found, (0..n).collect::<Vec<_>>());
             let with_parts = hierarchy.nodes.iter().filter(|node| node.has_parts);

@@ -1,8 +1,7 @@
 //! Rays and what they found, side by side in columns, so that lanes work on many of them.
 
-use super::bundle::run;
 use super::{Footprint, Occlusion, Outcome, Ray, Verdict};
-use crate::num::Columns;
+use crate::num::{Columns, Rows};
 use glam::DVec3;
 
 /// Rays side by side: the numbers of [`Ray`], in columns.
@@ -202,15 +201,15 @@ impl Outcomes {
 
     /// Says that these rays meet nothing.
     pub(super) fn miss(&mut self, rays: &[u32]) {
-        let nothing = Outcome::NOTHING;
-        fill(&mut self.verdict, rays, nothing.verdict);
-        fill(&mut self.part, rays, nothing.part);
-        fill(&mut self.steps, rays, nothing.steps);
-        fill(&mut self.evaluations, rays, nothing.evaluations);
+        let (rows, nothing) = (Rows::in_order(rays), Outcome::NOTHING);
+        rows.fill(&mut self.verdict, nothing.verdict);
+        rows.fill(&mut self.part, nothing.part);
+        rows.fill(&mut self.steps, nothing.steps);
+        rows.fill(&mut self.evaluations, nothing.evaluations);
         let (p, n) = (nothing.point, nothing.normal);
         let numbers = [nothing.t, nothing.error, p.x, p.y, p.z, n.x, n.y, n.z];
         for (column, number) in self.numbers.columns_mut().into_iter().zip(numbers) {
-            fill(column, rays, number);
+            rows.fill(column, number);
         }
     }
 
@@ -240,14 +239,6 @@ impl Outcomes {
     /// All of them, in order.
     pub fn iter(&self) -> impl Iterator<Item = Outcome> {
         (0..self.len()).map(|i| self.at(i))
-    }
-}
-
-/// Gives these rays the same value.
-fn fill<T: Copy>(column: &mut [T], rays: &[u32], value: T) {
-    match run(rays) {
-        Some(run) => column[run].fill(value),
-        None => rays.iter().for_each(|ray| column[*ray as usize] = value),
     }
 }
 
@@ -288,9 +279,10 @@ impl Occlusions {
 
     /// Says that nothing is in the way of these rays.
     pub(super) fn miss(&mut self, rays: &[u32]) {
-        fill(&mut self.verdict, rays, Verdict::Miss);
-        fill(&mut self.steps, rays, 0);
-        fill(&mut self.evaluations, rays, 0);
+        let rows = Rows::in_order(rays);
+        rows.fill(&mut self.verdict, Verdict::Miss);
+        rows.fill(&mut self.steps, 0);
+        rows.fill(&mut self.evaluations, 0);
     }
 
     /// All of them, in order.

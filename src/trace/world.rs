@@ -2,7 +2,7 @@
 
 use super::analytic::{ClosedForm, Crossing};
 use super::beam::Beam;
-use super::bundle::{Bundle, WIDTH, run};
+use super::bundle::{Bundle, WIDTH};
 use super::descent::Meets;
 use super::finding::Finding;
 use super::hierarchy::{Boxes, Hierarchy, clip, stretch};
@@ -17,10 +17,12 @@ use super::survey::{resolved, survey};
 use super::sweep::Question;
 use super::{Occlusion, Occlusions, Outcome, Outcomes, Ray, Rays, Verdict};
 use crate::field::{Brush, Level, Share, normal, run_at, shares};
+use crate::num::Rows;
 use crate::scene::{Fault, Material, Method, Node, Scene, Settings, Shadow};
 use glam::DVec3;
 use std::array;
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Which parts of the world a ray can see.
@@ -222,10 +224,10 @@ impl World {
                     return found.miss(numbers);
                 }
                 let verdicts = bundle.blocked(self.level);
-                let n = numbers.len();
-                put(&mut found.verdict, numbers, &verdicts[..n]);
-                put(&mut found.steps, numbers, &bundle.steps[..n]);
-                put(&mut found.evaluations, numbers, &bundle.evaluations[..n]);
+                let rows = Rows::in_order(numbers);
+                rows.put(&mut found.verdict, &verdicts);
+                rows.put(&mut found.steps, &bundle.steps);
+                rows.put(&mut found.evaluations, &bundle.evaluations);
             });
             return;
         }
@@ -358,8 +360,10 @@ impl World {
             let enter = |k| clip(ray.origin, inverse, &boxes.at(k), ray.t_max);
             array::from_fn(|k| enter(k).map_or(f64::INFINITY, |(enter, _)| enter))
         };
-        self.hierarchy
-            .visit(enters, |number, enter| candidates.push((enter, number)));
+        self.hierarchy.visit(enters, |number, enter| {
+            candidates.push((enter, number));
+            ControlFlow::Continue(())
+        });
         candidates.retain(|(_, number)| is_seen(&self.parts[*number as usize]));
         candidates.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1)));
         Search {
@@ -461,19 +465,19 @@ impl World {
                 PartKind::Ring(..) | PartKind::Marched(_) => {}
             }
         }
-        let n = numbers.len();
-        put(&mut outcomes.verdict, numbers, &verdicts[..n]);
-        put(&mut outcomes.part, numbers, &bundle.hit[..n]);
-        put(&mut outcomes.steps, numbers, &bundle.steps[..n]);
-        put(&mut outcomes.evaluations, numbers, &bundle.evaluations[..n]);
+        let rows = Rows::in_order(numbers);
+        rows.put(&mut outcomes.verdict, &verdicts);
+        rows.put(&mut outcomes.part, &bundle.hit);
+        rows.put(&mut outcomes.steps, &bundle.steps);
+        rows.put(&mut outcomes.evaluations, &bundle.evaluations);
         let [t, error, point @ .., x, y, z] = outcomes.columns_mut();
-        put(t, numbers, &bundle.enter[..n]);
-        put(error, numbers, &bundle.leave[..n]);
+        rows.put(t, &bundle.enter);
+        rows.put(error, &bundle.leave);
         for (column, axis) in [x, y, z].into_iter().zip(&bundle.gradient) {
-            put(column, numbers, &axis[..n]);
+            rows.put(column, axis);
         }
         for (column, axis) in point.into_iter().zip(&bundle.point) {
-            put(column, numbers, &axis[..n]);
+            rows.put(column, axis);
         }
         bundle.meeting(open);
         for i in open {
@@ -498,18 +502,6 @@ impl World {
             PartKind::Facet(facet) => facet.normal,
             PartKind::Pane(pane) => pane.normal(hit.point, ray.direction),
             PartKind::Ring(ring, _) => ring.normal(hit.point),
-        }
-    }
-}
-
-/// Puts the numbers of some rays in their places.
-fn put<T: Copy>(column: &mut [T], numbers: &[u32], values: &[T]) {
-    match run(numbers) {
-        Some(run) => column[run].copy_from_slice(values),
-        None => {
-            for (number, value) in numbers.iter().zip(values) {
-                column[*number as usize] = *value;
-            }
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Blocks: the squares of pixels whose rays are traced together.
 
+use super::area::Area;
+
 /// The side of a block, in pixels: the rays of a block are traced together, with all that follows from them, so that
 /// what they find does not depend on how blocks are put together to tiles.
 pub(super) const BLOCK: u32 = 16;
@@ -7,10 +9,13 @@ pub(super) const BLOCK: u32 = 16;
 /// The same, as a length of arrays.
 const SIDE: usize = BLOCK as usize;
 
+/// How many pixels a whole block has.
+pub(super) const PIXELS: usize = SIDE * SIDE;
+
 /// The places in a block along Morton's curve: each run of 64 is a square of 8 x 8, so that what is traced together lies
 /// together.
-const ORDER: [[u8; 2]; SIDE * SIDE] = {
-    let mut order = [[0; 2]; SIDE * SIDE];
+const ORDER: [[u8; 2]; PIXELS] = {
+    let mut order = [[0; 2]; PIXELS];
     let mut code = 0;
     while code < order.len() {
         let mut bit = 0;
@@ -36,32 +41,32 @@ const ROWS: [[u8; SIDE]; SIDE] = {
     rows
 };
 
-/// Some pixels whose rays are traced together.
+/// The pixels of a square, whose rays are traced together.
 #[derive(Default)]
 pub(super) struct Block {
     pixels: Vec<[u32; 2]>,
-    /// Whether they are all of a square, in order.
+    /// Whether there are all of them.
     is_whole: bool,
 }
 
 impl Block {
-    /// The block with its upper left pixel at `corner`, without the pixels beyond `end`.
-    pub fn at(corner: [u32; 2], end: [u32; 2]) -> Self {
+    /// The pixels of an area, no wider or higher than [`BLOCK`].
+    pub fn of(area: &Area) -> Self {
         let mut block = Self::default();
-        block.move_to(corner, end);
+        block.move_to(area);
         block
     }
 
-    /// As [`Block::at`], in the same memory.
-    pub fn move_to(&mut self, corner: [u32; 2], end: [u32; 2]) {
-        let [left, top] = corner;
+    /// As [`Block::of`], in the same memory.
+    pub fn move_to(&mut self, area: &Area) {
+        let [left, top] = area.corner;
         let places = ORDER.iter();
         self.pixels.clear();
         self.pixels
             .extend(places.map(|[i, j]| [left + u32::from(*i), top + u32::from(*j)]));
-        self.is_whole = left + BLOCK <= end[0] && top + BLOCK <= end[1];
+        self.is_whole = area.size() == [BLOCK; 2];
         if !self.is_whole {
-            self.pixels.retain(|[i, j]| *i < end[0] && *j < end[1]);
+            self.pixels.retain(|pixel| area.has(*pixel));
         }
     }
 
@@ -79,23 +84,17 @@ impl Block {
     }
 }
 
-/// These pixels, in any order.
-impl From<Vec<[u32; 2]>> for Block {
-    fn from(pixels: Vec<[u32; 2]>) -> Self {
-        Self {
-            pixels,
-            is_whole: false,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn rows_are_those_of_the_pixels() {
-        let mut block = Block::at([32, 48], [1000, 64]);
+        let mut area = Area {
+            corner: [32, 48],
+            end: [48, 64],
+        };
+        let mut block = Block::of(&area);
         let mut seen = 0;
         for ([left, row], places) in block.rows().into_iter().flatten() {
             for (column, place) in (left..).zip(places) {
@@ -104,7 +103,8 @@ mod tests {
             }
         }
         assert_eq!((seen, block.pixels().len()), (256, 256));
-        block.move_to([32, 48], [47, 1000]);
+        area.end[0] = 47;
+        block.move_to(&area);
         assert!(block.pixels().len() == 15 * 16 && block.rows().is_none());
         assert!(Block::default().rows().is_none());
     }

@@ -244,9 +244,9 @@ mod tests {
 
     #[test]
     fn pictures_differ_by_the_root_of_the_mean_square() {
-        let mut films = [(); 2].map(|()| Film::new([2, 1], &[Channel::Beauty]));
-        films[1].patches([2, 1])[0].record(0, &vec![[0, 0]].into(), |_| [3.0, 0.0, 0.0]);
-        let [a, b] = &films;
+        let film = |red| vec![red, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let film = |red| Film::of([2, 1], Channel::Beauty, film(red)).unwrap();
+        let [a, b] = &[0.0, 3.0].map(film);
         assert!((root_mean_square(a, b).unwrap() - 1.5f64.sqrt()).abs() < 1e-7);
         assert_eq!(root_mean_square(a, a), Some(0.0));
         assert_eq!(

@@ -1,7 +1,8 @@
 //! What the samples of a block of pixels add up to: only what is asked for.
 
 use super::Channel;
-use super::block::{BLOCK, Block};
+use super::area::Area;
+use super::block::Block;
 use super::film::Patch;
 use crate::num::Columns;
 use crate::shade::Received;
@@ -13,6 +14,8 @@ pub(super) struct Exposure {
     /// Whether some ray of a pixel ended without an answer.
     is_unknown: Vec<bool>,
     sums: Vec<Sum>,
+    /// What is recorded of a channel: memory that is used again.
+    sheet: [Vec<f32>; 3],
 }
 
 /// What one channel needs, for each pixel.
@@ -47,23 +50,17 @@ impl Exposure {
         Self {
             is_unknown: Vec::new(),
             sums: channels.iter().map(sum).collect(),
+            sheet: Default::default(),
         }
     }
 
-    /// So many samples of all pixels of a block that meet nothing and show this colour.
+    /// So many samples of one pixel whose rays meet nothing and show this colour.
     pub fn even(channels: &[Channel], samples: u32, color: DVec3) -> Self {
-        let pixels = (BLOCK * BLOCK) as usize;
-        let mut radiance = Columns::default();
-        radiance.resize(pixels);
-        for (column, number) in radiance.columns_mut().into_iter().zip(color.to_array()) {
-            column.fill(number);
-        }
-        let light = Received {
-            radiance,
-            unknown: vec![false; pixels],
-        };
+        let mut light = Received::default();
+        light.radiance.push(color.to_array());
+        light.unknown.push(false);
         let mut exposure = Self::new(channels);
-        exposure.reset(pixels);
+        exposure.reset(1);
         for _ in 0..samples {
             exposure.add_colors(&light.radiance);
             exposure.add_light(&light);
@@ -157,38 +154,78 @@ impl Exposure {
     }
 
     /// Records what that many samples of the pixels of a block add up to.
-    pub fn develop(&self, samples: u32, block: &Block, patch: &mut Patch) {
+    pub fn develop(&mut self, samples: u32, block: &Block, patch: &mut Patch) {
+        self.each_channel(samples, |k, numbers| match numbers {
+            Numbers::One(numbers) => patch.record(k, block, numbers),
+            Numbers::Three(numbers) => patch.record(k, block, numbers),
+        });
+    }
+
+    /// Records what that many samples of one pixel add up to as that of all pixels of an area.
+    pub fn develop_all(&mut self, samples: u32, area: &Area, patch: &mut Patch) {
+        self.each_channel(samples, |k, numbers| match numbers {
+            Numbers::One(numbers) => patch.fill(k, area, numbers.map(|column| column[0])),
+            Numbers::Three(numbers) => patch.fill(k, area, numbers.map(|column| column[0])),
+        });
+    }
+
+    /// Calls `record` with the number of each channel, and its numbers of all pixels.
+    fn each_channel(&mut self, samples: u32, mut record: impl FnMut(usize, Numbers)) {
         let n = f64::from(samples);
         let mean = |sum: f64| (if samples == 1 { sum } else { sum / n }) as f32;
+        let unknown = &self.is_unknown;
+        let [x, y, z] = &mut self.sheet;
         for (k, sum) in self.sums.iter().enumerate() {
             match sum {
                 Sum::Beauty(sums) | Sum::Color(sums) => {
-                    let [r, g, b] = sums.columns().map(|column| &column[..block.pixels().len()]);
-                    patch.record(k, block, |i| [mean(r[i]), mean(g[i]), mean(b[i])]);
+                    for (sheet, column) in [&mut *x, y, z].into_iter().zip(sums.columns()) {
+                        put(sheet, column.iter().map(|sum| mean(*sum)));
+                    }
+                    record(k, Numbers::Three([x, y, z]));
+                    continue;
                 }
-                Sum::Depth(depths) => patch.record(k, block, |i| [depths[i] as f32]),
                 Sum::Normal(normals) => {
-                    patch.record(k, block, |i| normals[i].0.as_vec3().to_array());
+                    for (axis, sheet) in [&mut *x, y, z].into_iter().enumerate() {
+                        put(sheet, normals.iter().map(|(normal, _)| normal[axis] as f32));
+                    }
+                    record(k, Numbers::Three([x, y, z]));
+                    continue;
                 }
+                Sum::Depth(depths) => put(x, depths.iter().map(|depth| *depth as f32)),
                 Sum::Steps(sums) | Sum::Evaluations(sums) => {
-                    patch.record(k, block, |i| [mean(sums[i] as f64)]);
+                    put(x, sums.iter().map(|sum| mean(*sum as f64)));
                 }
-                Sum::Verdict(hits) => patch.record(k, block, |i| {
-                    let verdict = match (self.is_unknown[i], hits[i]) {
-                        (true, _) => 2.0,
-                        (false, true) => 1.0,
-                        (false, false) => 0.0,
-                    };
-                    [verdict]
-                }),
-                Sum::Object(objects) => patch.record(k, block, |i| {
-                    let (part, depth) = objects[i];
-                    let is_hit = depth < f64::INFINITY;
-                    [if is_hit { part as f32 } else { -1.0 }]
-                }),
+                Sum::Verdict(hits) => put(x, unknown.iter().zip(hits).map(as_verdict)),
+                Sum::Object(objects) => put(x, objects.iter().map(as_object)),
             }
+            record(k, Numbers::One([x]));
         }
     }
+}
+
+/// The numbers of a channel, column by column.
+enum Numbers<'a> {
+    One([&'a [f32]; 1]),
+    Three([&'a [f32]; 3]),
+}
+
+fn as_verdict((is_unknown, is_hit): (&bool, &bool)) -> f32 {
+    match (is_unknown, is_hit) {
+        (true, _) => 2.0,
+        (false, true) => 1.0,
+        (false, false) => 0.0,
+    }
+}
+
+fn as_object((part, depth): &(u32, f64)) -> f32 {
+    let is_hit = *depth < f64::INFINITY;
+    if is_hit { *part as f32 } else { -1.0 }
+}
+
+/// Replaces numbers by others.
+fn put(sheet: &mut Vec<f32>, numbers: impl Iterator<Item = f32>) {
+    sheet.clear();
+    sheet.extend(numbers);
 }
 
 /// Makes it so many of the same.

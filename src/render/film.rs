@@ -1,7 +1,8 @@
 //! Film: what a rendering recorded, channel by channel, in rows from the top.
 
 use super::Channel;
-use super::block::Block;
+use super::area::Area;
+use super::block::{Block, PIXELS};
 
 /// One channel of a film.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +48,19 @@ impl Film {
     /// The height in pixels.
     pub fn height(&self) -> u32 {
         self.height
+    }
+
+    /// A film of `size` (width and height in pixels) with these numbers of one channel, in rows from the top; none if there are
+    /// not as many as it has.
+    pub fn of(size: [u32; 2], channel: Channel, values: Vec<f32>) -> Option<Self> {
+        let [width, height] = size;
+        let pixels = u64::from(width) * u64::from(height);
+        let count = pixels.checked_mul(channel.components() as u64);
+        (count == Some(values.len() as u64)).then_some(Self {
+            width,
+            height,
+            planes: vec![Plane { channel, values }],
+        })
     }
 
     /// What was recorded, in the order in which it was asked for.
@@ -115,28 +129,43 @@ pub(super) struct Patch<'a> {
 }
 
 impl Patch<'_> {
-    /// Records the `N` numbers of channel number `k`, counted from 0, for the pixels of a block.
+    /// Records the `N` numbers of channel number `k`, counted from 0, for the pixels of a block: column by column, in the order
+    /// of its pixels.
+    ///
+    /// # Panics
+    /// If a pixel is not on the patch, or a column has no number for it.
+    pub fn record<const N: usize>(&mut self, k: usize, block: &Block, numbers: [&[f32]; N]) {
+        let Some(rows) = block.rows() else {
+            for (i, pixel) in block.pixels().iter().enumerate() {
+                let piece = self.piece::<N>(k, *pixel, 1);
+                piece.copy_from_slice(&numbers.map(|column| column[i]));
+            }
+            return;
+        };
+        // Places are below their length: none is checked.
+        let numbers: [&[f32; PIXELS]; N] = numbers.map(|column| {
+            let whole = column.first_chunk();
+            whole.expect("there is a number for each pixel")
+        });
+        for (first, places) in rows {
+            let row = self.piece::<N>(k, first, places.len());
+            for (pixel, place) in row.as_chunks_mut::<N>().0.iter_mut().zip(places) {
+                for (number, column) in pixel.iter_mut().zip(numbers) {
+                    *number = column[usize::from(*place)];
+                }
+            }
+        }
+    }
+
+    /// Records the same `N` numbers of channel number `k`, counted from 0, for all pixels of an area.
     ///
     /// # Panics
     /// If a pixel is not on the patch.
-    pub fn record<const N: usize>(
-        &mut self,
-        k: usize,
-        block: &Block,
-        numbers: impl Fn(usize) -> [f32; N],
-    ) {
-        if let Some(rows) = block.rows() {
-            for (first, places) in rows {
-                let row = self.piece::<N>(k, first, places.len());
-                let row = row.as_chunks_mut().0;
-                for (pixel, place) in row.iter_mut().zip(places) {
-                    *pixel = numbers(usize::from(*place));
-                }
-            }
-            return;
-        }
-        for (i, pixel) in block.pixels().iter().enumerate() {
-            self.piece::<N>(k, *pixel, 1).copy_from_slice(&numbers(i));
+    pub fn fill<const N: usize>(&mut self, k: usize, area: &Area, numbers: [f32; N]) {
+        let [left, top] = area.corner;
+        for row in top..area.end[1] {
+            let piece = self.piece::<N>(k, [left, row], area.size()[0] as usize);
+            piece.as_chunks_mut().0.fill(numbers);
         }
     }
 
@@ -155,30 +184,44 @@ impl Patch<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::block::BLOCK;
     use super::*;
 
     #[test]
     fn patches_cover_the_film() {
         let channels = [Channel::Beauty, Channel::Depth];
-        for side in [[1, 1], [3, 2], [4, 8], [u32::MAX, u32::MAX]] {
-            let (width, height) = (7, 5);
+        for side in [[1, 1], [3, 2], [16, 17], [32, 48], [u32::MAX, u32::MAX]] {
+            let (width, height) = (57, 35);
             let mut film = Film::new([width, height], &channels);
             for patch in &mut film.patches(side) {
-                let [left, top] = patch.corner;
-                let rows = top..height.min(top.saturating_add(side[1]));
-                let columns = left..width.min(left.saturating_add(side[0]));
-                let pixels = rows.flat_map(|j| columns.clone().map(move |i| [i, j]));
-                let pixels: Vec<[u32; 2]> = pixels.collect();
-                let number = |k: usize| (pixels[k][0] + 10 * pixels[k][1]) as f32 + 1.0;
-                let block = Block::from(pixels.clone());
-                patch.record(0, &block, |k| [number(k), 0.0, -number(k)]);
-                patch.record(1, &block, |k| [2.0 * number(k)]);
+                let corner = patch.corner;
+                let end = [(0, width), (1, height)];
+                let end = end.map(|(axis, size)| size.min(corner[axis].saturating_add(side[axis])));
+                for area in (Area { corner, end }).squares(BLOCK) {
+                    let block = Block::of(&area);
+                    let number = |[i, j]: &[u32; 2]| (i + 100 * j) as f32 + 1.0;
+                    let numbers: Vec<f32> = block.pixels().iter().map(number).collect();
+                    let less: Vec<f32> = numbers.iter().map(|x| -x).collect();
+                    patch.record(0, &block, [&numbers, &vec![0.0; PIXELS], &less]);
+                    patch.fill(1, &area, [area.corner[0] as f32]);
+                }
             }
             for (i, j) in (0..height).flat_map(|j| (0..width).map(move |i| (i, j))) {
-                let number = (i + 10 * j) as f32 + 1.0;
+                let number = (i + 100 * j) as f32 + 1.0;
                 assert_eq!(film.at(Channel::Beauty, i, j), [number, 0.0, -number]);
-                assert_eq!(film.at(Channel::Depth, i, j), [2.0 * number]);
+                let across = side[0].min(width);
+                let left = i / across * across;
+                let first = (left + (i - left) / BLOCK * BLOCK) as f32;
+                assert_eq!(film.at(Channel::Depth, i, j), [first]);
             }
         }
+    }
+
+    #[test]
+    fn numbers_make_a_film_if_there_are_as_many() {
+        let film = Film::of([2, 1], Channel::Depth, vec![1.0, 2.0]).unwrap();
+        assert_eq!(film.at(Channel::Depth, 1, 0), [2.0]);
+        assert!(Film::of([2, 1], Channel::Beauty, vec![0.0; 5]).is_none());
+        assert!(Film::of([u32::MAX; 2], Channel::Beauty, Vec::new()).is_none());
     }
 }

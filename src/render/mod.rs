@@ -1,5 +1,6 @@
 //! Floor 6: camera to film: rays, tiles, threads, statistics.
 
+mod area;
 mod block;
 mod camera_tracer;
 mod channel;
@@ -18,6 +19,7 @@ mod tile;
 mod truth_bytes;
 mod view;
 
+pub use area::Area;
 pub use camera_tracer::CameraTracer;
 pub use channel::Channel;
 pub use effort::{Cause, Share, effort};

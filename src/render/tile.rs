@@ -1,5 +1,6 @@
 //! One tile of the picture, from its rays to its pixels.
 
+use super::area::Area;
 use super::block::{BLOCK, Block};
 use super::exposure::Exposure;
 use super::film::Patch;
@@ -22,10 +23,9 @@ pub struct Shared<'a, S: Surfaces + ?Sized> {
 }
 
 impl<S: Surfaces + ?Sized> Shared<'_, S> {
-    /// Whether any ray through the block at `corner`, which does not go beyond `end`, may meet anything.
-    fn may_meet(&self, corner: [u32; 2], end: [u32; 2]) -> bool {
-        let end = [0, 1].map(|axis| end[axis].min(corner[axis] + BLOCK));
-        self.whitted.may_meet(&self.view.beam(corner, end))
+    /// Whether any ray through the pixels of an area may meet anything.
+    fn may_meet(&self, area: &Area) -> bool {
+        self.whitted.may_meet(&self.view.beam(area))
     }
 
     /// What is recorded of rays that meet nothing, if it is the same for all of them.
@@ -41,37 +41,29 @@ impl<S: Surfaces + ?Sized> Shared<'_, S> {
 
 /// A square of blocks.
 #[derive(Clone, Copy, Debug)]
-pub struct Tile {
-    corner: [u32; 2],
-    end: [u32; 2],
-}
+pub struct Tile(Area);
 
 impl Tile {
     /// The tiles of a picture of `size`, in rows; each `side` pixels wide and high, rounded up to whole blocks, except at
     /// the right and lower edge.
     pub fn all(size: [u32; 2], side: u32) -> Vec<Self> {
         let side = side.min(size[0].max(size[1])).next_multiple_of(BLOCK);
-        let tile = |corner: [u32; 2]| Self {
-            corner,
-            end: [0, 1].map(|i| size[i].min(corner[i] + side)),
-        };
-        corners([0, 0], size, side).map(tile).collect()
+        Area::of(size).squares(side).map(Self).collect()
     }
 
     /// The width and height.
     pub fn size(&self) -> [u32; 2] {
-        [0, 1].map(|axis| self.end[axis] - self.corner[axis])
+        self.0.size()
     }
 
-    /// The upper left pixels of its blocks.
-    fn corners(&self) -> impl Iterator<Item = [u32; 2]> + use<> {
-        corners(self.corner, self.end, BLOCK)
+    /// The areas of its blocks, in the order in which they are traced.
+    fn areas(&self) -> impl Iterator<Item = Area> + use<> {
+        self.0.squares(BLOCK)
     }
 
-    /// Its blocks, in the order in which they are traced.
+    /// Its blocks, in the same order.
     pub fn blocks(&self) -> impl Iterator<Item = Block> + use<> {
-        let end = self.end;
-        self.corners().map(move |corner| Block::at(corner, end))
+        self.areas().map(|area| Block::of(&area))
     }
 
     /// Records the tile on its patch of the film; gives what it cost.
@@ -83,16 +75,16 @@ impl Tile {
         let mut exposure = Exposure::new(shared.channels);
         let mut block = Block::default();
         let mut even = None;
-        for corner in self.corners() {
-            block.move_to(corner, self.end);
-            let pixels = block.pixels().len();
-            let is_empty = !shared.may_meet(corner, self.end);
+        for area in self.areas() {
+            let pixels = area.pixels();
+            let is_empty = !shared.may_meet(&area);
             if is_empty && let Some(color) = shared.backdrop() {
                 tally.miss(pixels * samples as usize);
                 even.get_or_insert_with(|| Exposure::even(shared.channels, samples, color))
-                    .develop(samples, &block, patch);
+                    .develop_all(samples, &area, patch);
                 continue;
             }
+            block.move_to(&area);
             exposure.reset(pixels);
             for sample in 0..samples {
                 desk.aim(shared, block.pixels(), sample);
@@ -106,12 +98,6 @@ impl Tile {
         tally.busy = start.elapsed();
         tally
     }
-}
-
-/// The upper left corners of squares of this side that cover what lies between two corners, in rows.
-fn corners(from: [u32; 2], to: [u32; 2], side: u32) -> impl Iterator<Item = [u32; 2]> {
-    let steps = move |i: usize| (from[i]..to[i]).step_by(side as usize);
-    steps(1).flat_map(move |y| steps(0).map(move |x| [x, y]))
 }
 
 thread_local! {

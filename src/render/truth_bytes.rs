@@ -1,6 +1,5 @@
 //! What a reference says, as bytes, so that it can be kept; to the bit.
 
-use super::block::Block;
 use super::{Channel, Film, Hits, Truth};
 use crate::shade::Census;
 use crate::trace::{Footprint, Outcome, Ray, Verdict};
@@ -150,18 +149,9 @@ fn picture(bytes: &[u8]) -> Option<Film> {
     let [width, height] = take(&mut rest)?;
     let size = [u32::try_from(width).ok()?, u32::try_from(height).ok()?];
     let (values, odd) = rest.as_chunks::<4>();
-    let pixels = width.checked_mul(height)?;
-    if !odd.is_empty() || Some(values.len() as u64) != pixels.checked_mul(3) {
-        return None;
-    }
-    let values: Vec<f32> = values.iter().map(|b| f32::from_le_bytes(*b)).collect();
-    let rows = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
-    let mut film = Film::new(size, &[Channel::Beauty]);
-    let pixels = Block::from(rows.collect::<Vec<_>>());
-    for patch in &mut film.patches(size) {
-        patch.record::<3>(0, &pixels, |i| [0, 1, 2].map(|k| values[3 * i + k]));
-    }
-    Some(film)
+    let values = values.iter().map(|b| f32::from_le_bytes(*b)).collect();
+    let film = Film::of(size, Channel::Beauty, values);
+    film.filter(|_| odd.is_empty())
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 //! with `t = tan(fov/2)` and `s/t = (W-1)/(H-1)`, so that the centres of the outermost pixels lie on its edges. A
 //! picture of one column or row has it in the middle.
 
+use super::area::Area;
 use crate::field::{Level, Task, run_at};
 use crate::scene::{Camera, Projection};
 use crate::trace::{Beam, Footprint, Ray, Rays};
@@ -87,9 +88,9 @@ impl View {
         run_at(self.level, lines);
     }
 
-    /// What holds all rays through the pixels from the upper left one at `corner` up to, but not with, those at `end`: their
-    /// whole squares.
-    pub fn beam(&self, corner: [u32; 2], end: [u32; 2]) -> Beam {
+    /// What holds all rays through the pixels of an area: their whole squares.
+    pub fn beam(&self, area: &Area) -> Beam {
+        let Area { corner, end } = area;
         let side = |pixel: u32| f64::from(pixel) - 0.5;
         let (mut origins, mut directions) = ([self.eye; 2], [self.forward; 2]);
         let aside = if self.is_parallel {
@@ -319,10 +320,13 @@ mod tests {
             );
             // A ball on the border of a ray through some of the pixels, a half-space behind it.
             let first = [60.0 * x(10), 40.0 * x(11)].map(|x| x as u32);
-            let end = [first[0] + 16, first[1] + 5];
+            let area = Area {
+                corner: first,
+                end: [first[0] + 16, first[1] + 5],
+            };
             let through = |k: u64| {
                 let [i, j] = [0, 1].map(|axis| {
-                    let width = f64::from(end[axis] - first[axis]);
+                    let width = f64::from(area.size()[axis]);
                     f64::from(first[axis]) - 0.5 + width * x(20 + 2 * k + axis as u64)
                 });
                 view.ray(i, j)
@@ -345,7 +349,7 @@ mod tests {
                     ..Scene::default()
                 };
                 let world = World::new(&scene).expect("a world");
-                let may_meet = world.may_meet(&view.beam(first, end));
+                let may_meet = world.may_meet(&view.beam(&area));
                 empty += u32::from(!may_meet);
                 let rays: Vec<Ray> = (0..40).map(through).collect();
                 for found in world.nearest(&rays, Visibility::All) {

@@ -1,12 +1,13 @@
 //! What the camera's rays hit, ray by ray, in full precision: for judging and for counting.
 
+use super::block::Block;
 use super::job::on_threads;
 use super::statistics::Tally;
 use super::tile::Tile;
 use super::{RenderOptions, Steps, View};
 use crate::scene::Scene;
 use crate::shade::{Census, Surfaces, Whitted};
-use crate::trace::{Outcome, Ray};
+use crate::trace::{Outcome, Outcomes, Ray};
 
 /// What the camera's rays hit.
 #[derive(Clone, Debug, Default)]
@@ -28,10 +29,15 @@ impl Hits {
         let whitted = Whitted::new(scene, world);
         let tiles = Tile::all(settings.size, RenderOptions::default().tile);
         let trace = |tile: &Tile| {
-            let mut hits = Self::default();
-            for block in tile.blocks() {
-                let rays = view.rays(block.pixels());
-                let outcomes = whitted.first_hits(&rays, &mut hits.census);
+            let (mut hits, mut outcomes) = (Self::default(), Outcomes::default());
+            for area in tile.areas() {
+                let rays = view.rays(Block::of(&area).pixels());
+                if whitted.may_meet(&view.beam(&area), &mut hits.census) {
+                    whitted.meet_first(&rays, &mut hits.census, &mut outcomes);
+                } else {
+                    outcomes.nothing(rays.len());
+                    hits.census.miss(rays.len());
+                }
                 hits.outcomes.extend(outcomes.iter());
                 hits.rays.extend(rays.iter());
             }
@@ -65,5 +71,47 @@ impl Hits {
     /// The time inside of the tracer, in milliseconds.
     pub fn milliseconds(&self) -> f64 {
         self.census.tracing.total().as_secs_f64() * 1e3
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue::{AnyPrimitive, Torus};
+    use crate::scene::Node;
+    use crate::shade::Surfaces;
+    use crate::trace::{Verdict, Visibility, World};
+
+    #[test]
+    fn blocks_that_meet_nothing_hit_what_their_rays_do() {
+        let ring = Node::primitive(AnyPrimitive::Torus(Torus::new(0.8, 0.2))).expect("a ring");
+        let mut scene = Scene {
+            shown: vec![ring],
+            ..Scene::default()
+        };
+        scene.settings.size = [90, 70];
+        let world = World::new(&scene).expect("a world");
+        let hits = Hits::of(&scene, &world, 0);
+        let view = View::new(&scene.camera, scene.settings.size);
+        let tiles = Tile::all(scene.settings.size, RenderOptions::default().tile);
+        let areas: Vec<_> = tiles.iter().flat_map(Tile::areas).collect();
+        let is_empty = |area: &&_| !Surfaces::may_meet(&world, &view.beam(area));
+        let empty = areas.iter().filter(is_empty).count();
+        assert!(empty > 5 && empty + 5 < areas.len(), "{empty} are empty");
+        assert_eq!(hits.outcomes, world.nearest(&hits.rays, Visibility::All));
+        let of = |verdict| {
+            hits.outcomes
+                .iter()
+                .filter(|o| o.verdict == verdict)
+                .count() as u64
+        };
+        let Census {
+            hits: met,
+            misses,
+            primary,
+            ..
+        } = hits.census;
+        assert_eq!([met, misses], [Verdict::Hit, Verdict::Miss].map(of));
+        assert_eq!(primary, 90 * 70);
     }
 }

@@ -23,11 +23,6 @@ pub struct Shared<'a, S: Surfaces + ?Sized> {
 }
 
 impl<S: Surfaces + ?Sized> Shared<'_, S> {
-    /// Whether any ray through the pixels of an area may meet anything.
-    fn may_meet(&self, area: &Area) -> bool {
-        self.whitted.may_meet(&self.view.beam(area))
-    }
-
     /// What is recorded of rays that meet nothing, if it is the same for all of them.
     fn backdrop(&self) -> Option<DVec3> {
         let shows = |channel| self.channels.contains(channel);
@@ -57,7 +52,7 @@ impl Tile {
     }
 
     /// The areas of its blocks, in the order in which they are traced.
-    fn areas(&self) -> impl Iterator<Item = Area> + use<> {
+    pub fn areas(&self) -> impl Iterator<Item = Area> + use<> {
         self.0.squares(BLOCK)
     }
 
@@ -77,7 +72,8 @@ impl Tile {
         let mut even = None;
         for area in self.areas() {
             let pixels = area.pixels();
-            let is_empty = !shared.may_meet(&area);
+            let beam = shared.view.beam(&area);
+            let is_empty = !shared.whitted.may_meet(&beam, &mut tally.census);
             if is_empty && let Some(color) = shared.backdrop() {
                 tally.miss(pixels * samples as usize);
                 even.get_or_insert_with(|| Exposure::even(shared.channels, samples, color))

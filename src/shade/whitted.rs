@@ -236,8 +236,8 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
     }
 
     /// Whether any of the camera rays in a beam may meet anything.
-    pub fn may_meet(&self, beam: &Beam) -> bool {
-        self.surfaces.may_meet(beam)
+    pub fn may_meet(&self, beam: &Beam, census: &mut Census) -> bool {
+        census.timed(|t| &mut t.primary, || self.surfaces.may_meet(beam))
     }
 
     /// What camera rays show that meet nothing, if that is the same for all of them.

@@ -66,7 +66,10 @@ impl<'a> Rows<'a> {
     /// If the column is too short, or there are fewer values.
     #[inline(always)]
     pub fn put<T: Copy>(&self, column: &mut [T], values: &[T]) {
-        self.each(column, values, |place, value| *place = value);
+        match self.run.clone() {
+            Some(run) => column[run].copy_from_slice(&values[..self.numbers.len()]),
+            None => self.each(column, values, |place, value| *place = value),
+        }
     }
 
     /// Adds numbers, one for each row, to those of a column.

@@ -170,6 +170,7 @@ impl Patch<'_> {
     }
 
     /// The `N` numbers of each of so many pixels of a row, in channel number `k`.
+    #[inline(always)]
     fn piece<const N: usize>(
         &mut self,
         k: usize,

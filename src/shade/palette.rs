@@ -112,12 +112,9 @@ impl Palette {
         looks.own.clear();
         looks.numbers.clear();
         looks.varied.clear();
-        let mut first = 0;
-        while first < outcomes.len() {
-            let end = first + same_parts(outcomes, first);
-            self.look_at(surfaces, outcomes, first..end, looks);
-            first = end;
-        }
+        same_parts(outcomes, |rays| {
+            self.look_at(surfaces, outcomes, rays, looks);
+        });
     }
 
     /// Gives the rays whose surfaces have patterns theirs; with what lighting reads of them only if they are `lit`.
@@ -137,20 +134,30 @@ impl Palette {
     }
 }
 
-/// How many rays from number `first` on hit the same part, or nothing.
-fn same_parts(outcomes: &Outcomes, first: usize) -> usize {
+/// Calls `each` with the ranges of rays that hit the same part, or nothing.
+fn same_parts(outcomes: &Outcomes, mut each: impl FnMut(Range<usize>)) {
     /// So many are compared at once.
     const SOME: usize = 16;
-    let (verdicts, parts) = (&outcomes.verdict[first..], &outcomes.part[first..]);
-    let (verdict, part) = (verdicts[0], parts[0]);
-    let is_same = |i: &usize| (verdicts[*i] == verdict) & (parts[*i] == part);
-    let whole = verdicts.chunks_exact(SOME).zip(parts.chunks_exact(SOME));
-    let same = whole.take_while(|(verdicts, parts)| {
+    let (verdicts, parts) = (&outcomes.verdict, &outcomes.part);
+    let Some((mut verdict, mut part)) = verdicts.first().copied().zip(parts.first().copied())
+    else {
+        return;
+    };
+    let (mut first, mut begin) = (0, 0);
+    for (some_verdicts, some_parts) in verdicts.chunks(SOME).zip(parts.chunks(SOME)) {
         let differs = |(v, p): (&Verdict, &u32)| u32::from((*v != verdict) | (*p != part));
-        verdicts.iter().zip(*parts).map(differs).sum::<u32>() == 0
-    });
-    let same = SOME * same.count();
-    same + (same..verdicts.len()).take_while(is_same).count()
+        let others = some_verdicts.iter().zip(some_parts).map(differs);
+        if others.sum::<u32>() > 0 {
+            for (k, (v, p)) in some_verdicts.iter().zip(some_parts).enumerate() {
+                if (*v, *p) != (verdict, part) {
+                    each(begin..first + k);
+                    (begin, verdict, part) = (first + k, *v, *p);
+                }
+            }
+        }
+        first += some_verdicts.len();
+    }
+    each(begin..first);
 }
 
 impl Palette {
@@ -345,6 +352,38 @@ mod tests {
             })
             .collect();
         Arc::new(builder.finish(&outputs))
+    }
+
+    #[test]
+    fn rays_that_hit_the_same_part_are_in_one_range() {
+        for seed in 0..40u64 {
+            // Runs of about 1, 4, 13 and 40 rays, that hit one of two parts or nothing.
+            let change = [1.0, 0.25, 0.08, 0.025][seed as usize % 4];
+            let mut now = (Verdict::Miss, 0);
+            let outcome = |i: u64| {
+                let x = |k: u64| random(1000 * seed + 3 * i + k);
+                if x(0) < change {
+                    let part = (2.0 * x(1)) as u32;
+                    now = [(Verdict::Hit, part), (Verdict::Miss, 0)][(2.0 * x(2)) as usize];
+                }
+                let (verdict, part) = now;
+                Outcome {
+                    verdict,
+                    part,
+                    ..Outcome::NOTHING
+                }
+            };
+            let outcomes: Outcomes = (0..8 * seed).map(outcome).collect();
+            let all: Vec<_> = outcomes.iter().map(|o| (o.verdict, o.part)).collect();
+            let expected: Vec<usize> = all.chunk_by(|a, b| a == b).map(<[_]>::len).collect();
+            let (mut lengths, mut next) = (Vec::new(), 0);
+            same_parts(&outcomes, |range| {
+                assert_eq!(range.start, next);
+                next = range.end;
+                lengths.push(range.len());
+            });
+            assert_eq!(lengths, expected);
+        }
     }
 
     #[test]

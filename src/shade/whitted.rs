@@ -57,9 +57,9 @@ pub struct Received {
 }
 
 impl Received {
-    /// Forgets all of it, for that many rays.
+    /// Forgets all of it, for that many rays, whose first light is [`Received::show`]n.
     fn reset(&mut self, rays: usize) {
-        self.radiance.fill(rays, 0.0);
+        self.radiance.resize(0);
         self.unknown.clear();
         self.unknown.resize(rays, false);
     }
@@ -73,6 +73,15 @@ impl Received {
             light,
         };
         run_at(level, more);
+    }
+
+    /// Adds light to these samples, of which it takes the first, for all of them in order, as it is; `light` is lost.
+    fn show(&mut self, samples: &[u32], light: &mut Columns<3>, level: Level) {
+        if self.radiance.is_empty() {
+            mem::swap(&mut self.radiance, light);
+        } else {
+            self.add(samples, light.columns(), level);
+        }
     }
 
     /// Marks the samples of the rays without an answer.
@@ -345,7 +354,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                 glow,
             },
         );
-        studio.light.add(&paths.sample, glow.columns(), self.level);
+        studio.light.show(&paths.sample, glow, self.level);
         let wave = Meetings {
             rays,
             paths,
@@ -386,7 +395,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             glow,
         };
         run_at(self.level, above);
-        studio.light.add(&paths.sample, glow.columns(), self.level);
+        studio.light.show(&paths.sample, glow, self.level);
     }
 
     /// Weakens paths over the distances that their rays went, and adds the light that fog adds to them on the way.
@@ -414,7 +423,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                 channel[i] = weight[k] * passed;
             }
         }
-        studio.light.add(&paths.sample, glow.columns(), self.level);
+        studio.light.show(&paths.sample, glow, self.level);
     }
 
     /// Adds what the lamps send to a wave's hits. Lamp by lamp, so that shadow rays that are traced together go to one place.

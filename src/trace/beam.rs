@@ -130,9 +130,14 @@ impl Beam {
     /// The beam of all rays of a bundle.
     pub(super) fn around(bundle: &Bundle, level: Level) -> Self {
         let [origins, directions] = run_at(level, Ranges(bundle));
-        let from = [origins, directions].map(|[low, high]| 0.5 * (low + high));
+        Self::within(origins, directions)
+    }
+
+    /// The same of a beam around this bundle, with no larger balls than its rays need.
+    pub(super) fn tightened(&self, bundle: &Bundle, level: Level) -> Self {
+        let from = [self.origins, self.directions].map(|[low, high]| 0.5 * (low + high));
         let squares = run_at(level, Distances { bundle, from });
-        Self::new(origins, directions, squares.map(f64::sqrt))
+        Self::new(self.origins, self.directions, squares.map(f64::sqrt))
     }
 
     /// The same rays from their ends back, if these lie closer together than where the rays start: so it is with shadow rays. All
@@ -318,7 +323,7 @@ mod tests {
         let mut bundle = Bundle::new();
         let level = Level::best();
         bundle.fill(&rays.iter().collect(), &numbers);
-        Beam::around(&bundle, level)
+        Beam::around(&bundle, level).tightened(&bundle, level)
     }
 
     #[test]

@@ -170,6 +170,11 @@ pub struct Part {
 }
 
 impl Part {
+    /// Whether it is a combination that is thinned out.
+    pub fn is_thinned(&self) -> bool {
+        matches!(&self.kind, PartKind::Marched(marched) if marched.thicket.is_some())
+    }
+
     /// The part of a shape, with what a method demands of it.
     ///
     /// # Errors

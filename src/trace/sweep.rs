@@ -142,11 +142,15 @@ impl World {
         answer: &mut dyn FnMut(&mut Bundle, &[u32]),
     ) {
         scratch.bundle.fill(rays, numbers);
-        let beam = Beam::around(&scratch.bundle, self.level);
+        let mut beam = Beam::around(&scratch.bundle, self.level);
+        if self.is_thinned {
+            beam = beam.tightened(&scratch.bundle, self.level);
+        }
         let limit = self.farthest(scratch);
         let is_aimed = question.any && limit < f64::INFINITY && self.parts.len() > MANY;
-        let back = is_aimed.then(|| beam.back(&scratch.bundle, self.level));
-        let back = back.flatten();
+        let back = is_aimed
+            .then(|| beam.back(&scratch.bundle, self.level))
+            .flatten();
         let asked = back.as_ref().unwrap_or(&beam);
         let most = if numbers.len() > 1 {
             THRONG

@@ -60,6 +60,8 @@ pub struct World {
     pub(super) settings: Settings,
     /// How far a ray without end is followed through shapes without end.
     pub(super) horizon: f64,
+    /// Whether any part is a combination that is thinned out.
+    pub(super) is_thinned: bool,
     /// The instructions that lanes use.
     pub(super) level: Level,
 }
@@ -143,6 +145,7 @@ impl World {
             brushes: Mutex::default(),
             settings,
             horizon: reach,
+            is_thinned: parts.iter().any(Part::is_thinned),
             level,
             parts,
         }

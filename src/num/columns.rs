@@ -3,6 +3,9 @@
 use super::Rows;
 use std::{array, mem};
 
+/// The room of columns is a multiple of this, so that lanes need not stop at their ends.
+const LANES: usize = 32;
+
 /// `N` columns of one length.
 #[derive(Clone, Debug)]
 pub struct Columns<const N: usize> {
@@ -15,9 +18,10 @@ pub struct Columns<const N: usize> {
 impl<const N: usize> Columns<N> {
     /// No rows, with room for as many.
     pub fn with_capacity(rows: usize) -> Self {
+        let room = rows.next_multiple_of(LANES);
         Self {
-            numbers: vec![0.0; N * rows],
-            room: rows,
+            numbers: vec![0.0; N * room],
+            room,
             rows: 0,
         }
     }
@@ -54,8 +58,25 @@ impl<const N: usize> Columns<N> {
     }
 
     /// All columns.
+    #[inline(always)]
     pub fn columns(&self) -> [&[f64]; N] {
-        array::from_fn(|k| self.column(k))
+        self.up_to(self.rows)
+    }
+
+    /// All columns up to a multiple of 32 rows: behind the last is whatever was there.
+    #[inline(always)]
+    pub fn lanes(&self) -> [&[f64]; N] {
+        self.up_to(self.rows.next_multiple_of(LANES))
+    }
+
+    /// All columns up to this row.
+    #[inline(always)]
+    fn up_to(&self, end: usize) -> [&[f64]; N] {
+        let mut columns = [&self.numbers[..0]; N];
+        for (k, column) in columns.iter_mut().enumerate() {
+            *column = &self.numbers[k * self.room..][..end];
+        }
+        columns
     }
 
     /// All columns, to be written.
@@ -120,7 +141,7 @@ impl<const N: usize> Columns<N> {
     fn grow(&mut self, more: usize) {
         let rows = self.rows + more;
         if rows > self.room {
-            let mut larger = Self::with_capacity(rows.max(2 * self.room).max(16));
+            let mut larger = Self::with_capacity(rows.max(2 * self.room));
             larger.rows = self.rows;
             for (target, source) in larger.columns_mut().into_iter().zip(self.columns()) {
                 target.copy_from_slice(source);
@@ -172,6 +193,15 @@ mod tests {
         some.resize(2);
         some.append(columns.columns().map(|column| &column[..1]));
         assert_eq!((some.len(), some.row(1), some.row(2)), (3, row(99), row(0)));
+        let lanes = some.lanes();
+        assert!(lanes.iter().all(|lanes| lanes.len() == 32));
+        assert_eq!(lanes.map(|lanes| lanes[2]), row(0));
+        assert!(
+            Columns::<2>::default()
+                .lanes()
+                .iter()
+                .all(|lanes| lanes.is_empty())
+        );
         some.fill(2, 0.5);
         assert_eq!(
             (some.len(), some.row(0), some.row(1)),

@@ -102,14 +102,12 @@ impl Task for Gain<'_> {
             shininess,
             blinn,
             ..
-        } = Lighting::of(self.terms.columns());
-        let [d, e, f] = self.weight.columns();
+        } = Lighting::of(self.terms.lanes());
+        let [d, e, f] = self.weight.lanes();
         let columns = [a, b, c, d, e, f, diffuse, specular, shininess, blinn];
-        let columns = columns.map(|column| &column[some.clone()]);
-        let mut spare = [[0.0; GROUP]; 10];
         for first in (0..some.len()).step_by(GROUP) {
             let first = first.min(CHUNK - GROUP);
-            let terms = groups(columns, first, &mut spare);
+            let terms = groups(columns, some.start + first);
             gain(lit, self.radiance, terms, first);
         }
     }

@@ -13,29 +13,18 @@ pub const GROUP: usize = F64x32::WIDTH;
 /// A number for each of them.
 pub type Group = [f64; GROUP];
 
-/// The numbers of columns from number `first` on; zeros beyond their ends, for which there is a spare group each.
+/// The numbers of columns from number `first` on.
+///
+/// # Panics
+/// If they have less.
 #[inline(always)]
-pub fn groups<'a, const N: usize>(
-    columns: [&'a [f64]; N],
-    first: usize,
-    spare: &'a mut [Group; N],
-) -> [&'a Group; N] {
-    let mut spare = spare.iter_mut();
-    columns.map(|column| {
-        let (rest, spare) = (&column[first.min(column.len())..], spare.next());
-        rest.first_chunk().unwrap_or_else(|| last(rest, spare))
-    })
-}
-
-/// What is left at the end of a column, with zeros behind it: rare.
-#[cold]
-fn last<'a>(rest: &[f64], spare: Option<&'a mut Group>) -> &'a Group {
-    let Some(group) = spare else {
-        return &[0.0; GROUP];
-    };
-    *group = [0.0; GROUP];
-    group[..rest.len()].copy_from_slice(rest);
-    group
+pub fn groups<const N: usize>(columns: [&[f64]; N], first: usize) -> [&Group; N] {
+    let mut groups = [&[0.0; GROUP]; N];
+    for (group, column) in groups.iter_mut().zip(columns) {
+        let rest = column[first..].first_chunk();
+        *group = rest.expect("columns go on to the end of a group");
+    }
+    groups
 }
 
 /// Highlights below `exp` of this are 0: 2^-53, what rounding would take from a full one anyway.

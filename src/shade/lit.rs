@@ -105,16 +105,13 @@ impl<'a> Task for Face<'a> {
     fn run(self) {
         let (lit, some) = (self.lit, self.numbers);
         let (rays, outcomes) = (self.rays, self.outcomes);
-        let ([a, b, c], [d, e, f]) = (rays.direction(), outcomes.normal());
-        let ([g, h, k], [width, spread]) = (outcomes.point(), rays.footprint());
-        let (t, error) = (outcomes.t(), outcomes.error());
+        let [_, _, _, a, b, c, _, width, spread] = rays.lanes();
+        let [t, error, g, h, k, d, e, f] = outcomes.lanes();
         let columns = [a, b, c, d, e, f, g, h, k, t, error, width, spread];
-        let columns = columns.map(|column| &column[some.clone()]);
-        let mut spare = [[0.0; GROUP]; 13];
         for first in (0..some.len()).step_by(GROUP) {
             let first = first.min(CHUNK - GROUP);
             let [a, b, c, d, e, f, g, h, k, t, error, at_origin, grows] =
-                groups(columns, first, &mut spare);
+                groups(columns, some.start + first);
             let (mut normal, mut start) = ([[0.0; GROUP]; 3], [[0.0; GROUP]; 3]);
             let (mut width, mut spread) = ([0.0; GROUP], [0.0; GROUP]);
             for i in 0..GROUP {
@@ -161,12 +158,11 @@ impl<'a> Task for Shine<'a> {
     fn run(self) {
         let some = self.lit.numbers.clone();
         let lit = self.lit;
-        let ([a, b, c], [d, e, f]) = (self.outcomes.point(), self.rays.direction());
-        let columns = [a, b, c, d, e, f].map(|column| &column[some.clone()]);
-        let mut spare = [[0.0; GROUP]; 6];
+        let [_, _, a, b, c, ..] = self.outcomes.lanes();
+        let [_, _, _, d, e, f, ..] = self.rays.lanes();
         for first in (0..some.len()).step_by(GROUP) {
             let first = first.min(CHUNK - GROUP);
-            let [a, b, c, d, e, f] = groups(columns, first, &mut spare);
+            let [a, b, c, d, e, f] = groups([a, b, c, d, e, f], some.start + first);
             let arrivals = self.lamp.shine([a, b, c]);
             shine(lit, &arrivals, [d, e, f], first);
             if self.has_halfway {

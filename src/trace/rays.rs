@@ -51,6 +51,12 @@ impl Rays {
         [7, 8].map(|k| self.0.column(k))
     }
 
+    /// All columns up to a multiple of 32 rays, as [`Columns::lanes`].
+    #[inline(always)]
+    pub fn lanes(&self) -> [&[f64]; Self::COLUMNS] {
+        self.0.lanes()
+    }
+
     /// Ray number `i`.
     ///
     /// # Panics
@@ -180,6 +186,12 @@ impl Outcomes {
     #[inline(always)]
     pub fn normal(&self) -> [&[f64]; 3] {
         [5, 6, 7].map(|k| self.numbers.column(k))
+    }
+
+    /// Distances, their errors, places and normals up to a multiple of 32 rays, as [`Columns::lanes`].
+    #[inline(always)]
+    pub fn lanes(&self) -> [&[f64]; 8] {
+        self.numbers.lanes()
     }
 
     /// Makes it so many, of whatever was there.

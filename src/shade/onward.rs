@@ -7,7 +7,7 @@
 
 use super::fresnel::share;
 use super::highlight::GROUP;
-use super::lit::{CHUNK, Column};
+use super::lit::{CHUNK, Column, ROOM};
 use super::looks::Looks;
 use super::medium::{Crossing, Media, Medium, Surroundings};
 use super::offset;
@@ -21,6 +21,7 @@ use crate::num::Rows;
 use crate::trace::Footprint;
 use crate::trace::vector::place;
 use glam::DVec3;
+use std::ops::Range;
 
 /// Up to [`CHUNK`] hits that send rays on, and those rays.
 pub struct Senders {
@@ -58,20 +59,20 @@ struct Branches {
     direction: [Column; 3],
     weight: [Column; 3],
     /// Whether they are sent at all: 0 or 1, as wide as the other lanes.
-    is_sent: [u64; CHUNK],
+    is_sent: [u64; ROOM],
     /// Whether they weigh enough to be followed.
-    is_strong: [u64; CHUNK],
+    is_strong: [u64; ROOM],
 }
 
 impl Branches {
     fn new() -> Self {
-        let column = [0.0; CHUNK];
+        let column = [0.0; ROOM];
         Self {
             start: [column; 3],
             direction: [column; 3],
             weight: [column; 3],
-            is_sent: [0; CHUNK],
-            is_strong: [0; CHUNK],
+            is_sent: [0; ROOM],
+            is_strong: [0; ROOM],
         }
     }
 
@@ -97,7 +98,7 @@ impl Branches {
 impl Senders {
     /// No hits: large, so it lives in a box.
     pub fn new() -> Box<Self> {
-        let column = [0.0; CHUNK];
+        let column = [0.0; ROOM];
         Box::new(Self {
             numbers: Vec::with_capacity(CHUNK),
             incident: [column; 3],
@@ -115,7 +116,7 @@ impl Senders {
             beyond: Surroundings::default(),
             mirrored: Branches::new(),
             through: Branches::new(),
-            end: [f64::INFINITY; CHUNK],
+            end: [f64::INFINITY; ROOM],
         })
     }
 
@@ -170,11 +171,7 @@ impl Senders {
             self.fresnel[from..to].fill(surface.fresnel);
             // Only what lets light through, or reflects by how it would, asks for media.
             if surface.refract != 0.0 || surface.fresnel != 0.0 {
-                for (k, i) in (from..to).zip(some.clone()) {
-                    let crossing = crossing(wave, i, surface, &mut last);
-                    (self.indices[0][k], self.indices[1][k]) = (crossing.n1, crossing.n2);
-                    self.beyond.push(&crossing.beyond);
-                }
+                self.cross(wave, (some.clone(), surface), from, &mut last);
             } else {
                 self.indices
                     .iter_mut()
@@ -186,6 +183,40 @@ impl Senders {
             }
         }
         wave.rays.len()
+    }
+
+    /// Finds how some rays of a wave go through a surface, from sender number `from` on: mostly as the `last` one did.
+    fn cross(
+        &mut self,
+        wave: &Meetings,
+        (rays, surface): (Range<usize>, &Surface),
+        from: usize,
+        last: &mut Option<Boundary>,
+    ) {
+        let [normal, direction] = [wave.outcomes.normal(), wave.rays.direction()];
+        last.take_if(|last| last.medium != Medium::new(last.medium.part, surface));
+        for (k, i) in (from..).zip(rays) {
+            let [outward, incident] =
+                [normal, direction].map(|c| DVec3::new(c[0][i], c[1][i], c[2][i]));
+            let is_outside = offset::is_outside(outward, incident);
+            let (part, media) = (wave.outcomes.part[i], wave.paths.media.at(i));
+            last.take_if(|last| {
+                let is_same = (last.medium.part == part) & (last.is_outside == is_outside);
+                !(is_same && last.media.is_same(media))
+            });
+            let found = || {
+                let medium = Medium::new(part, surface);
+                Boundary {
+                    media: media.clone(),
+                    medium,
+                    is_outside,
+                    crossing: media.across(medium, is_outside),
+                }
+            };
+            let Crossing { n1, n2, beyond } = &last.get_or_insert_with(found).crossing;
+            (self.indices[0][k], self.indices[1][k]) = (*n1, *n2);
+            self.beyond.push(beyond);
+        }
     }
 
     /// Takes what is known of the rays and their hits.
@@ -257,33 +288,6 @@ struct Boundary {
     medium: Medium,
     is_outside: bool,
     crossing: Crossing,
-}
-
-/// How ray number `i` of a wave goes through a surface; mostly as the `last` one did.
-fn crossing<'a>(
-    wave: &Meetings,
-    i: usize,
-    surface: &Surface,
-    last: &'a mut Option<Boundary>,
-) -> &'a Crossing {
-    let (direction, normal) = (wave.rays.direction(), wave.outcomes.normal());
-    let [outward, incident] = [normal, direction].map(|c| DVec3::new(c[0][i], c[1][i], c[2][i]));
-    let is_outside = offset::is_outside(outward, incident);
-    let medium = Medium::new(wave.outcomes.part[i], surface);
-    let media = wave.paths.media.at(i);
-    let is_same = last.as_ref().is_some_and(|last| {
-        last.medium == medium && last.is_outside == is_outside && last.media.is_same(media)
-    });
-    if !is_same {
-        *last = None;
-    }
-    let found = || Boundary {
-        media: media.clone(),
-        medium,
-        is_outside,
-        crossing: media.across(medium, is_outside),
-    };
-    &last.get_or_insert_with(found).crossing
 }
 
 /// Finds where the rays go that hits send on, and what they weigh. The refracted share goes to the reflected ray where

@@ -6,7 +6,7 @@ use super::looks::{Looks, NONE};
 use super::surface::{Property, Terms};
 use super::{Surface, Surfaces};
 use crate::field::{Level, Walked, compile_graph};
-use crate::num::{F64x32, Lanes, Vec3};
+use crate::num::{F64x32, Lanes, Number, Rows, Vec3};
 use crate::scene::{Graph, Material, Term};
 use crate::trace::{Outcomes, Verdict};
 use glam::DVec3;
@@ -121,13 +121,17 @@ impl Palette {
     fn paint_varied(&self, looks: &mut Looks, outcomes: &Outcomes, lit: bool) {
         let mut varied = mem::take(&mut looks.varied);
         varied.sort_unstable();
+        let mut rays = [0; WIDTH];
         for same in varied.chunk_by(|(a, _), (b, _)| a == b) {
             let number = same[0].0 as usize;
             if !lit && self.swatches[number].is_only_lit {
                 continue;
             }
             for some in same.chunks(WIDTH) {
-                self.paint(looks, number, outcomes, (some, lit));
+                for (ray, (_, varied)) in rays.iter_mut().zip(some) {
+                    *ray = *varied;
+                }
+                self.paint(looks, number, outcomes, (&rays[..some.len()], lit));
             }
         }
         looks.varied = varied;
@@ -192,22 +196,25 @@ impl Palette {
         looks.numbers.resize(end, number);
     }
 
-    /// Gives these rays, at most [`WIDTH`], their surfaces, all of one material with patterns; with what lighting reads of
-    /// them only if they are lit.
+    /// Gives these rays, at most [`WIDTH`] and in order, their surfaces, all of one material with patterns; with what lighting
+    /// reads of them only if they are lit.
     fn paint(
         &self,
         looks: &mut Looks,
         number: usize,
         outcomes: &Outcomes,
-        (rays, lit): (&[(u32, u32)], bool),
+        (rays, lit): (&[u32], bool),
     ) {
         let swatch = &self.swatches[number];
-        let axis = |axis: usize| {
-            let column = outcomes.point()[axis];
-            // Lanes without a ray repeat the first.
-            Lanes::from_fn(|lane| column[rays.get(lane).unwrap_or(&rays[0]).1 as usize])
+        let rows = Rows::in_order(rays);
+        let axis = |column: &[f64]| {
+            // Lanes without a ray are at the first ray's place.
+            let mut places = [column[rays[0] as usize]; WIDTH];
+            rows.take(column, &mut places);
+            Lanes(places)
         };
-        let points = Vec3::new(axis(0), axis(1), axis(2));
+        let [x, y, z] = outcomes.point();
+        let points = Vec3::new(axis(x), axis(y), axis(z));
         let value = |pattern: &Pattern| {
             let mut value = [Lanes([0.0; WIDTH]); 3];
             (pattern.walk)(&points, &mut value[..pattern.outputs]);
@@ -222,22 +229,21 @@ impl Palette {
                 let Some(first) = place(pattern.property) else {
                     continue;
                 };
-                let value = value(pattern);
+                let mut value = value(pattern);
+                if pattern.property == Property::Shininess {
+                    value[0] = value[0].max(Lanes([0.0; WIDTH]));
+                }
                 let is_color = pattern.property == Property::Color;
-                let is_exponent = pattern.property == Property::Shininess;
                 let count = if is_color { 3 } else { 1 };
                 let columns = looks.terms.columns_mut().into_iter().skip(first);
                 for (column, number) in columns.zip(&value[..count]) {
-                    for (lane, (_, ray)) in rays.iter().enumerate() {
-                        let number = number.0[lane];
-                        column[*ray as usize] = if is_exponent { number.max(0.0) } else { number };
-                    }
+                    rows.put(column, &number.0);
                 }
             }
             return;
         }
         let values: Vec<[F64x32; 3]> = swatch.patterns.iter().map(value).collect();
-        for (lane, (_, ray)) in rays.iter().enumerate() {
+        for (lane, ray) in rays.iter().enumerate() {
             let mut known = Known {
                 values: values.iter(),
                 lane,

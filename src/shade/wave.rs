@@ -94,6 +94,11 @@ impl Paths {
         &self.weight
     }
 
+    /// Whether all weigh 1.
+    pub fn are_full(&self) -> bool {
+        self.is_fresh
+    }
+
     /// The weight of ray number `i`.
     pub fn weight(&self, i: usize) -> DVec3 {
         DVec3::from_array(self.weight.row(i))

@@ -147,7 +147,7 @@ thread_local! {
 /// Finds what the rays of a wave show without any lamp: ambient light, or the sky.
 struct Glow<'a> {
     terms: &'a Columns<LIGHTING>,
-    weight: &'a Columns<3>,
+    paths: &'a Paths,
     glow: &'a mut Columns<3>,
 }
 
@@ -156,14 +156,19 @@ impl Task for Glow<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let n = self.weight.len();
+        let n = self.paths.len();
         let Lighting { color, ambient, .. } = Lighting::of(self.terms.columns());
         let ambient = &ambient[..n];
         for (k, glow) in self.glow.columns_mut().into_iter().enumerate() {
-            let (glow, color, weight) =
-                (&mut glow[..n], &color[k][..n], &self.weight.column(k)[..n]);
+            let (glow, color) = (&mut glow[..n], &color[k][..n]);
             for i in 0..n {
-                glow[i] = weight[i] * (color[i] * ambient[i]);
+                glow[i] = color[i] * ambient[i];
+            }
+            if !self.paths.are_full() {
+                let weight = &self.paths.weights().column(k)[..n];
+                for i in 0..n {
+                    glow[i] *= weight[i];
+                }
             }
         }
     }
@@ -345,15 +350,12 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         }
         let Memory { looks, glow, .. } = &mut *studio.memory;
         glow.resize(rays.len());
-        let (terms, weight) = (&looks.terms, paths.weights());
-        run_at(
-            self.level,
-            Glow {
-                terms,
-                weight,
-                glow,
-            },
-        );
+        let light = Glow {
+            terms: &looks.terms,
+            paths,
+            glow,
+        };
+        run_at(self.level, light);
         studio.light.show(&paths.sample, glow, self.level);
         let wave = Meetings {
             rays,
@@ -442,7 +444,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         } = wave;
         gains.resize_with(self.lamps.len(), Gains::default);
         gains.iter_mut().for_each(Gains::clear);
-        let (terms, weight) = (&looks.terms, paths.weights());
+        let terms = &looks.terms;
         for first in (0..rays.len()).step_by(CHUNK) {
             let numbers = first..rays.len().min(first + CHUNK);
             if !looks.is_any_lit(numbers.clone()) {
@@ -469,7 +471,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                     lit,
                     radiance,
                     terms,
-                    weight,
+                    weight: paths.weights(),
                 };
                 run_at(self.level, gain);
                 gains.take(lit, paths, self.features.tinted_shadows);

@@ -8,7 +8,7 @@ use fieldstone::scene::{
     Term,
 };
 use fieldstone::shade::Surfaces;
-use fieldstone::trace::{Occlusions, Outcomes, Paint, Rays, Visibility, World};
+use fieldstone::trace::{Occlusions, Outcomes, Paint, RayColumns, Rays, Visibility, World};
 use glam::DVec3;
 use std::sync::Arc;
 use std::sync::Mutex;
@@ -118,8 +118,8 @@ impl Surfaces for Vague {
         Surfaces::nearest(&self.0, rays, visibility, found);
     }
 
-    fn occluded(&self, rays: &Rays, found: &mut Occlusions) {
-        Surfaces::occluded(&self.0, rays, found);
+    fn occluded(&self, rays: &RayColumns, numbers: &[u32], found: &mut Occlusions) {
+        Surfaces::occluded(&self.0, rays, numbers, found);
     }
 
     fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>> {

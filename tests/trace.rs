@@ -5,7 +5,7 @@ mod rays;
 use fieldstone::catalogue::*;
 use fieldstone::num::Vec3;
 use fieldstone::scene::{Method, Node, Settings};
-use fieldstone::trace::{Outcome, Ray, Verdict, Visibility, World};
+use fieldstone::trace::{Occlusions, Outcome, Ray, Rays, Verdict, Visibility, World};
 use glam::DVec3;
 use rays::{aimed, random, ray};
 use std::sync::Arc;
@@ -323,6 +323,33 @@ fn occlusion_is_a_hit_before_the_end() {
         let blocked = world.occluded(&rays);
         for (i, (a, b)) in hits.iter().zip(&blocked).enumerate() {
             assert_eq!(a.verdict, b.verdict, "{name}: ray {i}");
+        }
+    }
+}
+
+/// Of rays side by side some may be asked: what they find is what they find alone, and nothing is said of the others.
+#[test]
+fn some_rays_are_occluded_as_they_are_alone() {
+    let (name, node) = &zoo()[0];
+    let rays = aimed(600, 91);
+    let columns: Rays = rays.iter().collect();
+    let wanted: [fn(u32) -> bool; 4] = [|_| true, |_| false, |i| i % 3 != 1, |i| i / 40 % 2 == 0];
+    for method in [Method::Auto, Method::Sphere] {
+        let world = world(node, method);
+        let all = world.occluded(&rays);
+        assert!(all.iter().any(|found| found.verdict == Verdict::Hit));
+        let mut found = Occlusions::default();
+        for is_wanted in wanted {
+            let some: Vec<u32> = (0..600).filter(|i| is_wanted(*i)).collect();
+            world.occlusions_into(&columns.columns(), &some, &mut found);
+            for (i, found) in found.iter().enumerate() {
+                let expected = if is_wanted(i as u32) {
+                    all[i].verdict
+                } else {
+                    Verdict::Miss
+                };
+                assert_eq!(found.verdict, expected, "{name}, {method:?}: ray {i}");
+            }
         }
     }
 }

@@ -6,39 +6,43 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub struct Rows<'a> {
     numbers: &'a [u32],
+    /// Whether each is larger than the one before: then the ends of some tell whether they are neighbours.
+    is_in_order: bool,
     /// The range that they are, if each follows the one before.
     run: Option<Range<usize>>,
 }
+
+/// So many neighbours are looked for among others.
+const SOME: usize = 8;
 
 impl<'a> Rows<'a> {
     /// Rows with these numbers.
     #[inline(always)]
     pub fn of(numbers: &'a [u32]) -> Self {
-        let rows = Self::between_ends(numbers);
-        let first = numbers.first().map_or(0, |number| *number);
         // All are asked: a loop without an early end compares many at once.
         let mut others = 0;
-        for (expected, number) in (first..).zip(numbers) {
-            others |= expected ^ number;
+        for (a, b) in numbers.iter().zip(numbers.iter().skip(1)) {
+            others |= u32::from(a >= b);
         }
-        let run = rows.run.filter(|_| others == 0);
-        Self { numbers, run }
+        if others == 0 {
+            return Self::in_order(numbers);
+        }
+        Self {
+            numbers,
+            is_in_order: false,
+            run: None,
+        }
     }
 
-    /// Rows with these numbers, each larger than the one before: then the ends tell whether they are neighbours.
+    /// Rows with these numbers, each larger than the one before.
     #[inline(always)]
     pub fn in_order(numbers: &'a [u32]) -> Self {
         debug_assert!(numbers.is_sorted_by(|a, b| a < b), "rows are in order");
-        Self::between_ends(numbers)
-    }
-
-    /// Neighbours, if there are as many as between the ends.
-    #[inline(always)]
-    fn between_ends(numbers: &'a [u32]) -> Self {
         let ends = numbers.first().zip(numbers.last());
         let run = ends.map_or(0..0, |(a, b)| *a as usize..*b as usize + 1);
         Self {
             numbers,
+            is_in_order: true,
             run: (run.len() == numbers.len()).then_some(run),
         }
     }
@@ -50,14 +54,20 @@ impl<'a> Rows<'a> {
     #[inline(always)]
     pub fn take<T: Copy>(&self, column: &[T], taken: &mut [T]) {
         let taken = &mut taken[..self.numbers.len()];
-        match self.run.clone() {
-            Some(run) => taken.copy_from_slice(&column[run]),
-            None => {
-                for (value, number) in taken.iter_mut().zip(self.numbers) {
-                    *value = column[*number as usize];
-                }
+        if let Some(run) = self.run.clone() {
+            return taken.copy_from_slice(&column[run]);
+        }
+        let (some_taken, rest) = taken.as_chunks_mut::<SOME>();
+        let (some_numbers, others) = self.numbers.as_chunks::<SOME>();
+        for (taken, numbers) in some_taken.iter_mut().zip(some_numbers) {
+            let first = numbers[0] as usize;
+            if self.is_in_order && numbers[SOME - 1] as usize - first == SOME - 1 {
+                taken.copy_from_slice(&column[first..first + SOME]);
+            } else {
+                each(taken, numbers, |value, number| *value = column[number]);
             }
         }
+        each(rest, others, |value, number| *value = column[number]);
     }
 
     /// Copies values, one for each row, to where they belong in a column; of those for the same row the last.
@@ -68,7 +78,7 @@ impl<'a> Rows<'a> {
     pub fn put<T: Copy>(&self, column: &mut [T], values: &[T]) {
         match self.run.clone() {
             Some(run) => column[run].copy_from_slice(&values[..self.numbers.len()]),
-            None => self.each(column, values, |place, value| *place = value),
+            None => self.change(column, values, |place, value| *place = value),
         }
     }
 
@@ -78,7 +88,7 @@ impl<'a> Rows<'a> {
     /// If the column is too short, or there are fewer numbers.
     #[inline(always)]
     pub fn add(&self, column: &mut [f64], numbers: &[f64]) {
-        self.each(column, numbers, |sum, number| *sum += number);
+        self.change(column, numbers, |sum, number| *sum += number);
     }
 
     /// Gives all of these rows the same value.
@@ -97,7 +107,7 @@ impl<'a> Rows<'a> {
     }
 
     #[inline(always)]
-    fn each<T: Copy>(&self, column: &mut [T], values: &[T], change: impl Fn(&mut T, T)) {
+    fn change<T: Copy>(&self, column: &mut [T], values: &[T], change: impl Fn(&mut T, T)) {
         let values = &values[..self.numbers.len()];
         match self.run.clone() {
             Some(run) => {
@@ -114,6 +124,14 @@ impl<'a> Rows<'a> {
     }
 }
 
+/// Calls `change` with each of some values and its number.
+#[inline(always)]
+fn each<T>(values: &mut [T], numbers: &[u32], change: impl Fn(&mut T, usize)) {
+    for (value, number) in values.iter_mut().zip(numbers) {
+        change(value, *number as usize);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -122,13 +140,15 @@ mod tests {
     fn columns_are_read_and_written_at_the_rows() {
         let column: Vec<f64> = (0..20).map(f64::from).collect();
         let whole: Vec<u32> = (0..20).collect();
-        let lists: [&[u32]; 7] = [
+        let lists: [&[u32]; 9] = [
             &[],
             &[7],
             &[4, 5, 6],
             &[6, 5, 4],
             &[3, 3, 5],
             &[2, 9],
+            &[0, 1, 2, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 19],
+            &[9, 2, 3, 4, 5, 6, 7, 16, 1],
             &whole,
         ];
         for numbers in lists {

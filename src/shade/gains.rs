@@ -40,27 +40,15 @@ impl Gains {
         self.radiance.resize(0);
     }
 
-    /// Adds the hits of a chunk that gain something, on these paths; with their media only if these count.
-    pub fn take(&mut self, lit: &Lit, paths: &Paths, with_media: bool) {
-        let count = lit.numbers.len();
-        let is_gained = &lit.is_gained[..count];
-        let columns = lit.shadow_columns().map(|column| &column[..count]);
-        let gained = lit.gained.each_ref().map(|column| &column[..count]);
-        if is_gained.iter().all(|gains| *gains != 0) {
-            self.rays.append(columns);
-            self.radiance.append(gained);
-            self.samples
-                .extend_from_slice(&paths.sample[lit.numbers.clone()]);
-        } else {
-            let hits = is_gained.iter().enumerate();
-            let hits: Vec<u32> = hits
-                .filter_map(|(i, gains)| (*gains != 0).then_some(i as u32))
-                .collect();
-            self.rays.pick(columns, &hits);
-            self.radiance.pick(gained, &hits);
-            let sample = |hit: &u32| paths.sample[lit.numbers.start + *hit as usize];
-            self.samples.extend(hits.iter().map(sample));
-        }
+    /// Adds the hits of a chunk with these numbers, which gain something, on these paths; with their media only if these count.
+    pub fn take(&mut self, lit: &mut Lit, hits: &[u32], paths: &Paths, with_media: bool) {
+        let first = lit.numbers.start;
+        let (rays, gained) = lit.shadowed();
+        self.rays.pick(rays, hits);
+        self.radiance.pick(gained.map(|channel| &*channel), hits);
+        let numbers = hits.iter().map(|hit| first + *hit as usize);
+        self.samples
+            .extend(numbers.clone().map(|number| paths.sample[number]));
         if !with_media {
             return;
         }
@@ -68,10 +56,8 @@ impl Gains {
             self.media = Surroundings::empty(self.samples.len());
             return;
         }
-        for (number, gains) in lit.numbers.clone().zip(is_gained) {
-            if *gains != 0 {
-                self.media.push(paths.media.at(number));
-            }
+        for number in numbers {
+            self.media.push(paths.media.at(number));
         }
     }
 }
@@ -140,6 +126,9 @@ fn gain(lit: &mut Lit, radiance: DVec3, terms: [&Group; 10], first: usize) {
             gained[k][i] = weight[k][i] * seen * sent;
         }
         let gains = (strength != 0.0) & (light > 0.0) & is_seen & is_sent;
+        for k in 0..3 {
+            gained[k][i] = if gains { gained[k][i] } else { 0.0 };
+        }
         is_gained[i] = u64::from(gains);
     }
     put(lit.gained.each_mut(), first, gained.each_ref());

@@ -11,7 +11,7 @@ use super::offset;
 use super::phong::{Cosines, halfway};
 use crate::field::Task;
 use crate::trace::vector::place;
-use crate::trace::{Footprint, Outcomes, Rays};
+use crate::trace::{Footprint, Outcomes, RayColumns, Rays};
 use glam::DVec3;
 use std::ops::Range;
 
@@ -75,10 +75,24 @@ impl Lit {
         })
     }
 
-    /// The columns of the rays from these hits to the lamp.
-    pub fn shadow_columns(&self) -> [&Column; Rays::COLUMNS] {
+    /// The rays from these hits to the lamp, and what they gain from it, by channel.
+    pub fn shadowed(&mut self) -> (RayColumns<'_>, [&mut [f64]; 3]) {
+        let count = self.numbers.len();
         let ([a, b, c], [d, e, f]) = (&self.start, &self.way);
-        [a, b, c, d, e, f, &self.end, &self.width, &self.spread]
+        let mut rays = [a, b, c, d, e, f, &self.end, &self.width, &self.spread].map(|c| &c[..]);
+        for column in &mut rays {
+            *column = &column[..count];
+        }
+        let [r, g, b] = &mut self.gained;
+        (rays, [r, g, b].map(|channel| &mut channel[..count]))
+    }
+
+    /// Which of these hits gain something, in order.
+    pub fn gaining(&self) -> impl Iterator<Item = u32> {
+        let gained = self.is_gained[..self.numbers.len()].iter();
+        (0..)
+            .zip(gained)
+            .filter_map(|(i, gains)| (*gains != 0).then_some(i))
     }
 }
 

@@ -323,7 +323,7 @@ mod tests {
     use super::*;
     use crate::num::samples::random;
     use crate::scene::GraphBuilder;
-    use crate::trace::{Occlusions, Outcome, Paint, Rays, Visibility};
+    use crate::trace::{Occlusions, Outcome, Paint, RayColumns, Rays, Visibility};
 
     /// Materials alone: part number `i` has material number `i`.
     struct Samples(Vec<Arc<Material>>);
@@ -331,7 +331,7 @@ mod tests {
     impl Surfaces for Samples {
         fn nearest(&self, _: &Rays, _: Visibility, _: &mut Outcomes) {}
 
-        fn occluded(&self, _: &Rays, _: &mut Occlusions) {}
+        fn occluded(&self, _: &RayColumns, _: &[u32], _: &mut Occlusions) {}
 
         fn paints(&self, _: u32, _: DVec3) -> Vec<Paint<'_>> {
             Vec::new()

@@ -13,8 +13,9 @@ use super::medium::{Medium, Surroundings};
 use super::palette::Palette;
 use super::{Census, Features, Surface, Surfaces, offset};
 use crate::field::{Level, Task, run_at};
-use crate::num::Columns;
-use crate::trace::{Outcome, Outcomes, Ray, Rays, Verdict, Visibility, count};
+use crate::trace::{
+    Occlusions, Outcome, Outcomes, Ray, RayColumns, Rays, Verdict, Visibility, count,
+};
 use glam::DVec3;
 
 /// How many boundaries a shadow ray may cross before it is given up as unknown, and taken as blocked.
@@ -47,30 +48,54 @@ pub fn settle<S: Surfaces + ?Sized>(
     if features.tinted_shadows {
         walk_all(seen, (gains, met), census)
     } else if features.opaque_shadows {
-        stop(seen.0, gains, (census, level))
+        let all: Vec<u32> = (0..gains.rays.len() as u32).collect();
+        let Gains {
+            rays,
+            radiance,
+            occlusions,
+            ..
+        } = gains;
+        let shadow = Shadowed {
+            rays: &rays.columns(),
+            numbers: &all,
+            gained: radiance.columns_mut(),
+        };
+        stop(seen.0, shadow, occlusions, (census, level))
     } else {
         Vec::new()
     }
 }
 
-/// Blocks the rays that meet an opaque surface.
-fn stop<S: Surfaces + ?Sized>(
+/// Rays to a lamp, and what their hits gain from it if nothing is in the way.
+pub struct Shadowed<'a> {
+    /// The rays.
+    pub rays: &'a RayColumns<'a>,
+    /// Those that gain something, in order.
+    pub numbers: &'a [u32],
+    /// What is gained, by channel.
+    pub gained: [&'a mut [f64]; 3],
+}
+
+/// Takes what is gained along rays that meet an opaque surface; gives those of which the tracer could not tell.
+pub fn stop<S: Surfaces + ?Sized>(
     surfaces: &S,
-    gains: &mut Gains,
+    Shadowed {
+        rays,
+        numbers,
+        gained,
+    }: Shadowed,
+    occlusions: &mut Occlusions,
     (census, level): (&mut Census, Level),
 ) -> Vec<u32> {
-    census.shadow += gains.rays.len() as u64;
-    let Gains {
-        rays,
-        radiance,
-        occlusions,
-        ..
-    } = gains;
-    census.timed(|t| &mut t.shadow, || surfaces.occluded(rays, occlusions));
+    census.shadow += numbers.len() as u64;
+    census.timed(
+        |t| &mut t.shadow,
+        || surfaces.occluded(rays, numbers, occlusions),
+    );
     census.evaluations += sum(&occlusions.evaluations);
     let verdicts = &occlusions.verdict[..];
     if count(verdicts, Verdict::Hit) > 0 {
-        run_at(level, Darken { radiance, verdicts });
+        run_at(level, Darken { gained, verdicts });
     }
     if count(&occlusions.verdict, Verdict::Unknown) == 0 {
         return Vec::new();
@@ -84,7 +109,7 @@ fn stop<S: Surfaces + ?Sized>(
 
 /// Takes what is gained along rays that meet something.
 struct Darken<'a> {
-    radiance: &'a mut Columns<3>,
+    gained: [&'a mut [f64]; 3],
     verdicts: &'a [Verdict],
 }
 
@@ -93,7 +118,7 @@ impl Task for Darken<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let [r, g, b] = self.radiance.columns_mut();
+        let [r, g, b] = self.gained;
         let channels = r.chunks_mut(GROUP).zip(g.chunks_mut(GROUP));
         let channels = channels.zip(b.chunks_mut(GROUP));
         let mut is_dark = [0u64; GROUP];

@@ -1,7 +1,7 @@
 //! What shading asks of the world.
 
 use crate::scene::Material;
-use crate::trace::{Beam, Occlusions, Outcomes, Paint, Rays, Visibility, World};
+use crate::trace::{Beam, Occlusions, Outcomes, Paint, RayColumns, Rays, Visibility, World};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -11,9 +11,9 @@ pub trait Surfaces: Sync {
     /// Finds the first surface on each ray; what was in `found` before is forgotten.
     fn nearest(&self, rays: &Rays, visibility: Visibility, found: &mut Outcomes);
 
-    /// Finds whether any opaque surface lies on each ray; what casts a tinted shadow or none is passed over. What was in
-    /// `found` before is forgotten.
-    fn occluded(&self, rays: &Rays, found: &mut Occlusions);
+    /// Finds whether any opaque surface lies on the rays with these numbers, each larger than the one before; what casts a tinted
+    /// shadow or none is passed over. Nothing lies on the others. What was in `found` before is forgotten.
+    fn occluded(&self, rays: &RayColumns, numbers: &[u32], found: &mut Occlusions);
 
     /// Whether one of the rays of a beam, however far it is followed, may meet anything: it may always be said that it may.
     fn may_meet(&self, _beam: &Beam) -> bool {
@@ -46,8 +46,8 @@ impl Surfaces for World {
         self.trace_into(rays, visibility, found);
     }
 
-    fn occluded(&self, rays: &Rays, found: &mut Occlusions) {
-        self.occlusions_into(rays, found);
+    fn occluded(&self, rays: &RayColumns, numbers: &[u32], found: &mut Occlusions) {
+        self.occlusions_into(rays, numbers, found);
     }
 
     fn may_meet(&self, beam: &Beam) -> bool {

@@ -19,14 +19,14 @@ use super::lit::{CHUNK, Face, Lit, Shine};
 use super::looks::Looks;
 use super::onward::Senders;
 use super::palette::Palette;
-use super::shadow::{Boundaries, settle};
+use super::shadow::{Boundaries, Shadowed, settle, stop};
 use super::sky::radiance;
 use super::wave::{Meetings, Paths, Wave, Waves};
 use super::{Census, Features, Surfaces};
 use crate::field::{Level, Task, run_at};
 use crate::num::{Columns, Rows};
 use crate::scene::{Fog, Scene, Sky};
-use crate::trace::{Beam, Outcomes, Rays, Verdict, Visibility, count};
+use crate::trace::{Beam, Occlusions, Outcomes, Rays, Verdict, Visibility, count};
 use glam::DVec3;
 use std::cell::Cell;
 use std::mem;
@@ -121,6 +121,8 @@ struct Memory {
     glow: Columns<3>,
     /// What it gains from each lamp.
     gains: Vec<Gains>,
+    /// Which hits of a chunk do.
+    hits: Vec<u32>,
     /// What shadow rays meet.
     met: Boundaries,
     /// The hits that send rays on.
@@ -296,6 +298,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             looks: Looks::default(),
             glow: Columns::default(),
             gains: Vec::new(),
+            hits: Vec::new(),
             met: Boundaries::default(),
             senders: Senders::new(),
             paths: Paths::default(),
@@ -434,6 +437,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             lit,
             looks,
             gains,
+            hits,
             met,
             ..
         } = &mut *studio.memory;
@@ -474,10 +478,22 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                     weight: paths.weights(),
                 };
                 run_at(self.level, gain);
-                gains.take(lit, paths, self.features.tinted_shadows);
+                hits.clear();
+                hits.extend(lit.gaining());
+                if hits.is_empty() {
+                    continue;
+                }
+                // What is walked, or does not fit into a chunk, is collected first.
+                if self.features.tinted_shadows || rays.len() > CHUNK {
+                    gains.take(lit, hits, paths, self.features.tinted_shadows);
+                    continue;
+                }
+                let light = (&mut *studio.light, &mut *studio.census);
+                self.add_lamp((lit, hits), paths, &mut gains.occlusions, light);
             }
         }
-        for gains in gains {
+        let collected = gains.iter_mut().filter(|gains| !gains.rays.is_empty());
+        for gains in collected {
             let seen = (self.surfaces, &self.palette);
             let asked = (&mut *gains, &mut *met);
             for ray in settle(seen, &self.features, asked, (studio.census, self.level)) {
@@ -487,5 +503,31 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                 .light
                 .add(&gains.samples, gains.radiance.columns(), self.level);
         }
+    }
+
+    /// Adds what a lamp sends to a wave that is one chunk, of which these hits gain something, unless something opaque is in the
+    /// way.
+    fn add_lamp(
+        &self,
+        (lit, hits): (&mut Lit, &[u32]),
+        paths: &Paths,
+        occlusions: &mut Occlusions,
+        (light, census): (&mut Received, &mut Census),
+    ) {
+        if self.features.opaque_shadows {
+            let (rays, gained) = lit.shadowed();
+            let shadowed = Shadowed {
+                rays: &rays,
+                numbers: hits,
+                gained,
+            };
+            let level = (census, self.level);
+            for ray in stop(self.surfaces, shadowed, occlusions, level) {
+                light.unknown[paths.sample[ray as usize] as usize] = true;
+            }
+        }
+        let (_, gained) = lit.shadowed();
+        let gained = gained.map(|channel| &*channel);
+        light.add(&paths.sample, gained, self.level);
     }
 }

@@ -5,7 +5,7 @@
     reason = "lanes run through many arrays side by side"
 )]
 
-use super::Rays;
+use super::RayColumns;
 use super::analytic::HalfSpace;
 use super::bundle::{Bundle, CAPACITY, fold, larger, lesser};
 use super::hierarchy::{BRANCHES, Boxes, Eight};
@@ -223,7 +223,11 @@ impl Beam {
 
     /// The half of the beam that a ray belongs to, if it is cut across where its rays differ most over the distance
     /// `reach`: the first or not.
-    pub(super) fn divide<'a>(&self, reach: f64, rays: &'a Rays) -> impl Fn(&u32) -> bool + 'a {
+    pub(super) fn divide<'a>(
+        &self,
+        reach: f64,
+        rays: &RayColumns<'a>,
+    ) -> impl Fn(&u32) -> bool + 'a {
         let differ = |ends: &[DVec3; 2], scale: f64| {
             let size = (ends[1] - ends[0]) * scale;
             let axis = size
@@ -241,9 +245,9 @@ impl Beam {
         let origins = differ(&self.origins, 1.0);
         let directions = differ(&self.directions, reach);
         let (column, middle) = if origins.1 >= directions.1 {
-            (rays.origin()[origins.0], origins.2)
+            (rays[origins.0], origins.2)
         } else {
-            (rays.direction()[directions.0], directions.2)
+            (rays[3 + directions.0], directions.2)
         };
         move |number| column[*number as usize] < middle
     }
@@ -298,7 +302,7 @@ mod tests {
     use crate::catalogue::Bounds;
     use crate::num::samples::random;
     use crate::trace::hierarchy::clip;
-    use crate::trace::{Footprint, Ray};
+    use crate::trace::{Footprint, Ray, Rays};
 
     fn rays(seed: u64) -> Vec<Ray> {
         let place = |k: u64| {
@@ -322,7 +326,8 @@ mod tests {
         let numbers: Vec<u32> = (0..rays.len() as u32).collect();
         let mut bundle = Bundle::new();
         let level = Level::best();
-        bundle.fill(&rays.iter().collect(), &numbers);
+        let columns: Rays = rays.iter().collect();
+        bundle.fill(&columns.columns(), &numbers);
         Beam::around(&bundle, level).tightened(&bundle, level)
     }
 
@@ -365,7 +370,8 @@ mod tests {
             let rays: Vec<Ray> = rays(seed).into_iter().map(aimed).collect();
             let numbers: Vec<u32> = (0..rays.len() as u32).collect();
             let (mut bundle, level) = (Bundle::new(), Level::best());
-            bundle.fill(&rays.iter().collect(), &numbers);
+            let columns: Rays = rays.iter().collect();
+            bundle.fill(&columns.columns(), &numbers);
             let Some(beam) = Beam::around(&bundle, level).back(&bundle, level) else {
                 continue;
             };

@@ -10,7 +10,7 @@ use super::bits::ones;
 use super::cones::{ALL, PACKETS, Packets};
 use super::finding::{Finding, concluded, is_better, occluded};
 use super::vector::place;
-use super::{Rays, Verdict};
+use super::{RayColumns, Rays, Verdict};
 use crate::catalogue::Bounds;
 use crate::field::{Level, Task, run_at};
 use crate::num::{F64x32, Rows};
@@ -104,11 +104,11 @@ impl Bundle {
     }
 
     /// Takes the rays with these numbers, from 1 to [`CAPACITY`] of them, in order, and forgets what was there.
-    pub fn fill(&mut self, rays: &Rays, numbers: &[u32]) {
+    pub fn fill(&mut self, rays: &RayColumns, numbers: &[u32]) {
         self.count = numbers.len();
         let n = self.lanes();
         let rows = Rows::in_order(numbers);
-        for (column, source) in self.columns_mut().into_iter().zip(rays.columns()) {
+        for (column, source) in self.columns_mut().into_iter().zip(rays) {
             rows.take(source, column);
             // Lanes without a ray repeat the first.
             let first = column[0];

@@ -166,7 +166,7 @@ mod tests {
     use crate::field::{Level, run_at};
     use crate::num::samples::random;
     use crate::trace::analytic::ClosedForm;
-    use crate::trace::{Footprint, Ray};
+    use crate::trace::{Footprint, Ray, Rays};
 
     fn ray(seed: u64, k: u64, spread: f64) -> Ray {
         let place = |k: u64| {
@@ -199,7 +199,8 @@ mod tests {
             let rays: Vec<Ray> = (0..count).map(|k| ray(seed, k, spread)).collect();
             let mut bundle = Bundle::new();
             let numbers: Vec<u32> = (0..count as u32).collect();
-            bundle.fill(&rays.iter().collect(), &numbers);
+            let columns: Rays = rays.iter().collect();
+            bundle.fill(&columns.columns(), &numbers);
             let (mut cones, level) = (Cones::default(), Level::best());
             let (cones, bundle) = (&mut cones, &bundle);
             run_at(level, Gather { cones, bundle });

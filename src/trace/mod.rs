@@ -48,7 +48,7 @@ pub use outcome::{Occlusion, Outcome, Verdict, count};
 pub use part::PartKind;
 pub use precision::{Precision, sphere_traced};
 pub use ray::{Footprint, Ray};
-pub use rays::{Occlusions, Outcomes, Rays};
+pub use rays::{Occlusions, Outcomes, RayColumns, Rays};
 pub use refuted::Refuted;
 pub use scene_tracer::SceneTracer;
 pub use unpruned::union;

@@ -8,6 +8,9 @@ use glam::DVec3;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rays(Columns<{ Rays::COLUMNS }>);
 
+/// The columns of [`Rays`], wherever they are.
+pub type RayColumns<'a> = [&'a [f64]; Rays::COLUMNS];
+
 impl Rays {
     /// How many columns there are: origins and directions by axis, how far the rays are followed, the widths of their
     /// pixels at the origins, and by how much these grow with each scene unit.
@@ -89,7 +92,7 @@ impl Rays {
     ///
     /// # Panics
     /// If a column is too short.
-    pub fn pick(&mut self, columns: [&[f64]; Self::COLUMNS], numbers: &[u32]) {
+    pub fn pick(&mut self, columns: RayColumns, numbers: &[u32]) {
         self.0.pick(columns, numbers);
     }
 
@@ -97,7 +100,7 @@ impl Rays {
     ///
     /// # Panics
     /// If the columns differ in length.
-    pub fn append(&mut self, columns: [&[f64]; Self::COLUMNS]) {
+    pub fn append(&mut self, columns: RayColumns) {
         self.0.append(columns);
     }
 
@@ -111,8 +114,18 @@ impl Rays {
         self.resize(0);
     }
 
+    /// The rays with these numbers of some columns.
+    ///
+    /// # Panics
+    /// If a column is too short.
+    pub fn picked(columns: RayColumns, numbers: &[u32]) -> Self {
+        let mut rays = Self::with_capacity(numbers.len());
+        rays.pick(columns, numbers);
+        rays
+    }
+
     /// All columns.
-    pub fn columns(&self) -> [&[f64]; Self::COLUMNS] {
+    pub fn columns(&self) -> RayColumns<'_> {
         self.0.columns()
     }
 
@@ -287,6 +300,24 @@ impl Occlusions {
         self.verdict.resize(count, Verdict::Miss);
         self.steps.resize(count, 0);
         self.evaluations.resize(count, 0);
+    }
+
+    /// Makes it so many, and says that nothing is in the way of any.
+    pub fn reset(&mut self, count: usize) {
+        self.verdict.clear();
+        self.steps.clear();
+        self.evaluations.clear();
+        self.resize(count);
+    }
+
+    /// Puts what single rays found at their numbers.
+    pub fn put(&mut self, numbers: &[u32], occlusions: impl Iterator<Item = Occlusion>) {
+        for (number, occlusion) in numbers.iter().zip(occlusions) {
+            let i = *number as usize;
+            self.verdict[i] = occlusion.verdict;
+            self.steps[i] = occlusion.steps;
+            self.evaluations[i] = occlusion.evaluations;
+        }
     }
 
     /// Says that nothing is in the way of these rays.

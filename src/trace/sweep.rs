@@ -19,7 +19,7 @@ use super::scout::Scout;
 use super::stages::{Stage, stages};
 use super::stride::Stride;
 use super::world::World;
-use super::{Rays, Verdict};
+use super::{RayColumns, Verdict};
 use crate::catalogue::Bounds;
 use crate::field::{Thinned, run_at};
 use glam::DVec3;
@@ -96,10 +96,11 @@ struct Visit<'a> {
 }
 
 impl World {
-    /// Asks `question` of all rays; `answer` is given each bundle, with the numbers of the rays in it.
+    /// Asks `question` of the rays with these numbers, in order; `answer` is given each bundle, with the numbers of the rays in
+    /// it. Numbers come back in another order.
     pub(super) fn sweep(
         &self,
-        rays: &Rays,
+        (rays, numbers): (&RayColumns, &mut [u32]),
         question: &Question,
         answer: &mut dyn FnMut(&mut Bundle, &[u32]),
     ) {
@@ -121,7 +122,6 @@ impl World {
             })
         });
         scratch.occluder = None;
-        let mut numbers: Vec<u32> = (0..rays.len() as u32).collect();
         scratch.entries.clear();
         scratch.entries.extend(self.hierarchy.root());
         let known = 0..scratch.entries.len();
@@ -134,7 +134,7 @@ impl World {
     /// The sweep of the rays with these numbers, which can meet only what lies below the `known` entries, and what has no end.
     fn sweep_bundle(
         &self,
-        rays: &Rays,
+        rays: &RayColumns,
         numbers: &mut [u32],
         known: Range<usize>,
         question: &Question,

@@ -15,7 +15,7 @@ use super::method::{
 use super::part::{Marched, Part, PartKind, flatten};
 use super::survey::{resolved, survey};
 use super::sweep::Question;
-use super::{Occlusion, Occlusions, Outcome, Outcomes, Ray, Rays, Verdict};
+use super::{Occlusion, Occlusions, Outcome, Outcomes, Ray, RayColumns, Rays, Verdict};
 use crate::field::{Brush, Level, Share, normal, run_at, shares};
 use crate::num::Rows;
 use crate::scene::{Fault, Material, Method, Node, Scene, Settings, Shadow};
@@ -175,7 +175,9 @@ impl World {
                 any: false,
             };
             let mut open = Vec::new();
-            self.sweep(rays, &question, &mut |bundle, numbers| {
+            let mut all: Vec<u32> = (0..rays.len() as u32).collect();
+            let some = (&rays.columns(), &mut all[..]);
+            self.sweep(some, &question, &mut |bundle, numbers| {
                 self.conclude(rays, bundle, numbers, (found, &mut open));
             });
             return;
@@ -210,19 +212,31 @@ impl World {
     /// Whether any opaque surface lies on each ray; parts whose shadow is tinted or none are passed over.
     pub fn occluded(&self, rays: &[Ray]) -> Vec<Occlusion> {
         let mut found = Occlusions::default();
-        self.occlusions_into(&rays.iter().collect(), &mut found);
+        let rays: Rays = rays.iter().collect();
+        let all: Vec<u32> = (0..rays.len() as u32).collect();
+        self.occlusions_into(&rays.columns(), &all, &mut found);
         found.iter().collect()
     }
 
-    /// As [`World::occluded`], for rays side by side; what was in `found` before is forgotten.
-    pub fn occlusions_into(&self, rays: &Rays, found: &mut Occlusions) {
+    /// As [`World::occluded`], for the rays with these numbers of some columns, each number larger than the one before; nothing is
+    /// said to be in the way of the others. What was in `found` before is forgotten.
+    ///
+    /// # Panics
+    /// If a column is too short.
+    pub fn occlusions_into(&self, rays: &RayColumns, numbers: &[u32], found: &mut Occlusions) {
+        let count = rays[0].len();
+        if numbers.len() < count {
+            found.reset(count);
+        } else {
+            found.resize(count);
+        }
         if self.settings.method == Method::Auto {
-            found.resize(rays.len());
             let question = Question {
                 is_seen: &|part: &Part| part.shadow == Shadow::Opaque,
                 any: true,
             };
-            self.sweep(rays, &question, &mut |bundle, numbers| {
+            let mut some = numbers.to_vec();
+            self.sweep((rays, &mut some), &question, &mut |bundle, numbers| {
                 if bundle.is_blank() {
                     return found.miss(numbers);
                 }
@@ -234,10 +248,10 @@ impl World {
             });
             return;
         }
-        let rays: Vec<Ray> = rays.iter().collect();
+        let rays: Vec<Ray> = Rays::picked(*rays, numbers).iter().collect();
         let searches = self.search(&rays, &|part: &Part| part.shadow == Shadow::Opaque, true);
         let occlusions = searches.iter().map(|search| search.finding.occlusion());
-        *found = occlusions.collect();
+        found.put(numbers, occlusions);
     }
 
     /// The same world with every Lipschitz constant that methods take steps by times a factor. Below 1, that is no bound any

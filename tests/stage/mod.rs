@@ -3,7 +3,8 @@
 use fieldstone::scene::{Light, Material, Scene, Shadow, Sky, Term};
 use fieldstone::shade::{Census, Surfaces, Whitted};
 use fieldstone::trace::{
-    Footprint, Occlusion, Occlusions, Outcome, Outcomes, Paint, Ray, Rays, Verdict, Visibility,
+    Footprint, Occlusion, Occlusions, Outcome, Outcomes, Paint, Ray, RayColumns, Rays, Verdict,
+    Visibility,
 };
 use glam::DVec3;
 use std::sync::{Arc, Mutex};
@@ -121,14 +122,16 @@ impl Surfaces for Stage {
         *found = rays.iter().map(|ray| self.find(&ray, is_seen)).collect();
     }
 
-    fn occluded(&self, rays: &Rays, found: &mut Occlusions) {
+    fn occluded(&self, rays: &RayColumns, numbers: &[u32], found: &mut Occlusions) {
+        found.reset(rays[0].len());
+        let rays = Rays::picked(*rays, numbers);
         self.shadow_rays.lock().unwrap().extend(rays.iter());
         let occlusion = |ray: Ray| Occlusion {
             verdict: self.find(&ray, |m| m.shadow == Shadow::Opaque).verdict,
             steps: 1,
             evaluations: 1,
         };
-        *found = rays.iter().map(occlusion).collect();
+        found.put(numbers, rays.iter().map(occlusion));
     }
 
     fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>> {

@@ -144,6 +144,39 @@ impl Media {
     }
 }
 
+/// How rays go through boundaries: mostly as the one before, so that is kept.
+#[derive(Default)]
+pub struct Crossings {
+    last: Option<Boundary>,
+}
+
+/// A boundary as a ray met it.
+struct Boundary {
+    /// What the ray was in.
+    media: Media,
+    medium: Medium,
+    is_entering: bool,
+    crossing: Crossing,
+}
+
+impl Crossings {
+    /// As [`Media::across`].
+    #[inline]
+    pub fn across(&mut self, media: &Media, medium: Medium, is_entering: bool) -> &Crossing {
+        self.last.take_if(|last| {
+            let is_same = (last.medium == medium) & (last.is_entering == is_entering);
+            !(is_same && last.media.is_same(media))
+        });
+        let boundary = self.last.get_or_insert_with(|| Boundary {
+            media: media.clone(),
+            medium,
+            is_entering,
+            crossing: media.across(medium, is_entering),
+        });
+        &boundary.crossing
+    }
+}
+
 /// The media around rays, side by side: neighbours that share theirs store them once, and nothing is stored as long as all rays
 /// are in empty space.
 #[derive(Clone, Debug, Default)]

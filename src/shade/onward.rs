@@ -9,7 +9,7 @@ use super::fresnel::share;
 use super::highlight::GROUP;
 use super::lit::{CHUNK, Column, ROOM};
 use super::looks::Looks;
-use super::medium::{Crossing, Media, Medium, Surroundings};
+use super::medium::{Crossing, Crossings, Media, Medium, Surroundings};
 use super::offset;
 use super::palette::Palette;
 use super::reflect::reflected;
@@ -155,7 +155,7 @@ impl Senders {
     ) -> usize {
         self.numbers.clear();
         self.beyond.clear();
-        let mut last = None;
+        let mut crossings = Crossings::default();
         let runs = looks.runs(palette);
         for (range, surface) in runs.filter(|(range, _)| range.end > first) {
             let Some(surface) = surface.filter(|surface| surface.sends_on()) else {
@@ -171,7 +171,7 @@ impl Senders {
             self.fresnel[from..to].fill(surface.fresnel);
             // Only what lets light through, or reflects by how it would, asks for media.
             if surface.refract != 0.0 || surface.fresnel != 0.0 {
-                self.cross(wave, (some.clone(), surface), from, &mut last);
+                self.cross(wave, (some.clone(), surface), from, &mut crossings);
             } else {
                 self.indices
                     .iter_mut()
@@ -185,35 +185,22 @@ impl Senders {
         wave.rays.len()
     }
 
-    /// Finds how some rays of a wave go through a surface, from sender number `from` on: mostly as the `last` one did.
+    /// Finds how some rays of a wave go through a surface, from sender number `from` on.
     fn cross(
         &mut self,
         wave: &Meetings,
         (rays, surface): (Range<usize>, &Surface),
         from: usize,
-        last: &mut Option<Boundary>,
+        crossings: &mut Crossings,
     ) {
         let [normal, direction] = [wave.outcomes.normal(), wave.rays.direction()];
-        last.take_if(|last| last.medium != Medium::new(last.medium.part, surface));
         for (k, i) in (from..).zip(rays) {
             let [outward, incident] =
                 [normal, direction].map(|c| DVec3::new(c[0][i], c[1][i], c[2][i]));
             let is_outside = offset::is_outside(outward, incident);
-            let (part, media) = (wave.outcomes.part[i], wave.paths.media.at(i));
-            last.take_if(|last| {
-                let is_same = (last.medium.part == part) & (last.is_outside == is_outside);
-                !(is_same && last.media.is_same(media))
-            });
-            let found = || {
-                let medium = Medium::new(part, surface);
-                Boundary {
-                    media: media.clone(),
-                    medium,
-                    is_outside,
-                    crossing: media.across(medium, is_outside),
-                }
-            };
-            let Crossing { n1, n2, beyond } = &last.get_or_insert_with(found).crossing;
+            let medium = Medium::new(wave.outcomes.part[i], surface);
+            let Crossing { n1, n2, beyond } =
+                crossings.across(wave.paths.media.at(i), medium, is_outside);
             (self.indices[0][k], self.indices[1][k]) = (*n1, *n2);
             self.beyond.push(beyond);
         }
@@ -279,15 +266,6 @@ impl Senders {
         );
         chosen.len() as u64
     }
-}
-
-/// A boundary as a ray met it.
-struct Boundary {
-    /// What the ray was in.
-    media: Media,
-    medium: Medium,
-    is_outside: bool,
-    crossing: Crossing,
 }
 
 /// Finds where the rays go that hits send on, and what they weigh. The refracted share goes to the reflected ray where

@@ -9,7 +9,7 @@ use super::census::sum;
 use super::gains::Gains;
 use super::highlight::GROUP;
 use super::looks::Looks;
-use super::medium::{Medium, Surroundings};
+use super::medium::{Crossings, Medium, Surroundings};
 use super::palette::Palette;
 use super::{Census, Features, Surface, Surfaces, offset};
 use crate::field::{Level, Task, run_at};
@@ -215,7 +215,7 @@ fn step<S: Surfaces + ?Sized>(
     census.evaluations += sum(&outcomes.evaluations);
     census.unknown_secondary += count(&outcomes.verdict, Verdict::Unknown) as u64;
     palette.look_through(surfaces, outcomes, looks);
-    let mut further = Walkers::default();
+    let (mut further, mut crossings) = (Walkers::default(), Crossings::default());
     for (range, surface) in looks.runs(palette) {
         match surface {
             Some(surface) if surface.passes == 0.0 => {
@@ -226,7 +226,8 @@ fn step<S: Surfaces + ?Sized>(
             Some(surface) => {
                 for i in range {
                     let hit = &outcomes.at(i);
-                    pass(walkers, i, (surface, hit), (passages, &mut further));
+                    let onward = (&mut *passages, &mut further, &mut crossings);
+                    pass(walkers, i, (surface, hit), onward);
                 }
             }
             None => {
@@ -250,7 +251,7 @@ fn pass(
     (rays, media, indices): (&Rays, &Surroundings, &[u32]),
     i: usize,
     (surface, hit): (&Surface, &Outcome),
-    (passages, further): (&mut [Passage], &mut Walkers),
+    (passages, further, crossings): (&mut [Passage], &mut Walkers, &mut Crossings),
 ) {
     let (ray, media, index) = (&rays.at(i), media.at(i), indices[i]);
     let passage = &mut passages[index as usize];
@@ -264,9 +265,8 @@ fn pass(
         let medium = Medium::new(hit.part, surface);
         let is_entering = offset::is_outside(hit.normal, ray.direction);
         further.rays.push(&next);
-        further
-            .media
-            .push(&media.across(medium, is_entering).beyond);
+        let crossing = crossings.across(media, medium, is_entering);
+        further.media.push(&crossing.beyond);
         further.indices.push(index);
     }
 }

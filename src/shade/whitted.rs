@@ -478,8 +478,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                     weight: paths.weights(),
                 };
                 run_at(self.level, gain);
-                hits.clear();
-                hits.extend(lit.gaining());
+                lit.list_gaining(hits);
                 if hits.is_empty() {
                     continue;
                 }

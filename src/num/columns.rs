@@ -1,10 +1,10 @@
 //! Tables of numbers, column by column in one piece of memory.
 
-use super::Rows;
+use super::{F64x32, Rows};
 use std::{array, mem};
 
 /// The room of columns is a multiple of this, so that lanes need not stop at their ends.
-const LANES: usize = 32;
+const LANES: usize = F64x32::WIDTH;
 
 /// `N` columns of one length.
 #[derive(Clone, Debug)]

@@ -76,19 +76,31 @@ impl<'a> Rows<'a> {
     /// If the column is too short, or there are fewer values.
     #[inline(always)]
     pub fn put<T: Copy>(&self, column: &mut [T], values: &[T]) {
-        match self.run.clone() {
-            Some(run) => column[run].copy_from_slice(&values[..self.numbers.len()]),
-            None => self.change(column, values, |place, value| *place = value),
+        let values = &values[..self.numbers.len()];
+        if let Some(run) = self.run.clone() {
+            return column[run].copy_from_slice(values);
+        }
+        for (number, value) in self.numbers.iter().zip(values) {
+            column[*number as usize] = *value;
         }
     }
 
-    /// Adds numbers, one for each row, to those of a column.
+    /// Adds numbers, one for each row, to those of a column; to a row that is there several times all of its numbers.
     ///
     /// # Panics
     /// If the column is too short, or there are fewer numbers.
     #[inline(always)]
     pub fn add(&self, column: &mut [f64], numbers: &[f64]) {
-        self.change(column, numbers, |sum, number| *sum += number);
+        let numbers = &numbers[..self.numbers.len()];
+        if let Some(run) = self.run.clone() {
+            for (sum, number) in column[run].iter_mut().zip(numbers) {
+                *sum += number;
+            }
+            return;
+        }
+        for (row, number) in self.numbers.iter().zip(numbers) {
+            column[*row as usize] += number;
+        }
     }
 
     /// Gives all of these rows the same value.
@@ -101,23 +113,6 @@ impl<'a> Rows<'a> {
             None => {
                 for number in self.numbers {
                     column[*number as usize] = value;
-                }
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn change<T: Copy>(&self, column: &mut [T], values: &[T], change: impl Fn(&mut T, T)) {
-        let values = &values[..self.numbers.len()];
-        match self.run.clone() {
-            Some(run) => {
-                for (place, value) in column[run].iter_mut().zip(values) {
-                    change(place, *value);
-                }
-            }
-            None => {
-                for (number, value) in self.numbers.iter().zip(values) {
-                    change(&mut column[*number as usize], *value);
                 }
             }
         }

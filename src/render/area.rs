@@ -5,7 +5,7 @@
 pub struct Area {
     /// The first column and row.
     pub corner: [u32; 2],
-    /// The column and row after the last.
+    /// The column and row after the last; not before `corner`.
     pub end: [u32; 2],
 }
 
@@ -34,7 +34,10 @@ impl Area {
         (0..2).all(|axis| (self.corner[axis]..self.end[axis]).contains(&pixel[axis]))
     }
 
-    /// Squares with this side that cover it, in rows; less of them at the right and lower edge.
+    /// Squares with this side that cover it, in rows; those at the right and lower edge may be smaller rectangles.
+    ///
+    /// # Panics
+    /// If the side is 0.
     pub fn squares(&self, side: u32) -> impl Iterator<Item = Self> + use<> {
         let Self { corner, end } = *self;
         let steps = move |axis: usize| (corner[axis]..end[axis]).step_by(side as usize);

@@ -176,20 +176,19 @@ impl Exposure {
         let unknown = &self.is_unknown;
         let [x, y, z] = &mut self.sheet;
         for (k, sum) in self.sums.iter().enumerate() {
+            let mut is_one = true;
             match sum {
                 Sum::Beauty(sums) | Sum::Color(sums) => {
                     for (sheet, column) in [&mut *x, y, z].into_iter().zip(sums.columns()) {
                         put(sheet, column.iter().map(|sum| mean(*sum)));
                     }
-                    record(k, Numbers::Three([x, y, z]));
-                    continue;
+                    is_one = false;
                 }
                 Sum::Normal(normals) => {
                     for (axis, sheet) in [&mut *x, y, z].into_iter().enumerate() {
                         put(sheet, normals.iter().map(|(normal, _)| normal[axis] as f32));
                     }
-                    record(k, Numbers::Three([x, y, z]));
-                    continue;
+                    is_one = false;
                 }
                 Sum::Depth(depths) => put(x, depths.iter().map(|depth| *depth as f32)),
                 Sum::Steps(sums) | Sum::Evaluations(sums) => {
@@ -198,7 +197,12 @@ impl Exposure {
                 Sum::Verdict(hits) => put(x, unknown.iter().zip(hits).map(as_verdict)),
                 Sum::Object(objects) => put(x, objects.iter().map(as_object)),
             }
-            record(k, Numbers::One([x]));
+            let numbers = if is_one {
+                Numbers::One([x])
+            } else {
+                Numbers::Three([x, y, z])
+            };
+            record(k, numbers);
         }
     }
 }

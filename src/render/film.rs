@@ -204,16 +204,18 @@ mod tests {
                     let numbers: Vec<f32> = block.pixels().iter().map(number).collect();
                     let less: Vec<f32> = numbers.iter().map(|x| -x).collect();
                     patch.record(0, &block, [&numbers, &vec![0.0; PIXELS], &less]);
-                    patch.fill(1, &area, [area.corner[0] as f32]);
+                    let [column, row] = area.corner;
+                    patch.fill(1, &area, [(column + 100 * row) as f32 + 1.0]);
                 }
             }
             for (i, j) in (0..height).flat_map(|j| (0..width).map(move |i| (i, j))) {
                 let number = (i + 100 * j) as f32 + 1.0;
                 assert_eq!(film.at(Channel::Beauty, i, j), [number, 0.0, -number]);
-                let across = side[0].min(width);
-                let left = i / across * across;
-                let first = (left + (i - left) / BLOCK * BLOCK) as f32;
-                assert_eq!(film.at(Channel::Depth, i, j), [first]);
+                let first = |x: u32, across: u32| x / across * across + x % across / BLOCK * BLOCK;
+                let column = first(i, side[0].min(width));
+                let row = first(j, side[1].min(height));
+                let number = (column + 100 * row) as f32 + 1.0;
+                assert_eq!(film.at(Channel::Depth, i, j), [number]);
             }
         }
     }

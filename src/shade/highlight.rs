@@ -13,7 +13,7 @@ pub const GROUP: usize = F64x32::WIDTH;
 /// A number for each of them.
 pub type Group = [f64; GROUP];
 
-/// The numbers of columns from number `first` on.
+/// The numbers of columns from number `first` on. Groups begin at multiples of their length, and columns go on to the next.
 ///
 /// # Panics
 /// If they have less.

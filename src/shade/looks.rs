@@ -25,7 +25,7 @@ pub struct Looks {
     /// What lighting reads of them; where nothing was hit, the colour is still to be written.
     pub terms: Columns<LIGHTING>,
     /// Rays whose surfaces have patterns, with the numbers of their materials.
-    pub varied: Vec<(u32, u32)>,
+    pub varied: Vec<(u32, Range<u32>)>,
     /// Of which palette and which numbers the terms are that were written last, but for those of the sky and of patterns.
     written: (u64, Vec<u32>),
 }

@@ -208,7 +208,7 @@ impl Senders {
 
     /// Takes what is known of the rays and their hits.
     fn gather(&mut self, wave: &Meetings) {
-        let rows = Rows::of(&self.numbers);
+        let rows = Rows::in_order(&self.numbers);
         let (rays, outcomes) = (wave.rays, wave.outcomes);
         for (columns, sources) in [
             (&mut self.incident, rays.direction()),
@@ -252,6 +252,11 @@ impl Senders {
         let ([a, b, c], [d, e, f]) = (&branches.start, &branches.direction);
         let columns = [a, b, c, d, e, f, &self.end, &self.width, &self.spread];
         let number = |k: u32| self.numbers[k as usize] as usize;
+        let media = |k: u32| match beyond {
+            Some(beyond) => beyond.at(k as usize),
+            None => wave.paths.media.at(number(k)),
+        };
+        let are_empty = beyond.unwrap_or(&wave.paths.media).are_empty();
         next.take(
             (&chosen, spare),
             (
@@ -259,10 +264,7 @@ impl Senders {
                 branches.weight.each_ref().map(|column| &column[..]),
             ),
             |k| wave.paths.sample[number(k)],
-            |k| match beyond {
-                Some(beyond) => beyond.at(k as usize),
-                None => wave.paths.media.at(number(k)),
-            },
+            (!are_empty).then_some(media),
         );
         chosen.len() as u64
     }

@@ -120,18 +120,19 @@ impl Palette {
     /// Gives the rays whose surfaces have patterns theirs; with what lighting reads of them only if they are `lit`.
     fn paint_varied(&self, looks: &mut Looks, outcomes: &Outcomes, lit: bool) {
         let mut varied = mem::take(&mut looks.varied);
-        varied.sort_unstable();
-        let mut rays = [0; WIDTH];
+        varied.sort_unstable_by_key(|(number, rays)| (*number, rays.start));
+        let mut rays = Vec::new();
         for same in varied.chunk_by(|(a, _), (b, _)| a == b) {
             let number = same[0].0 as usize;
             if !lit && self.swatches[number].is_only_lit {
                 continue;
             }
-            for some in same.chunks(WIDTH) {
-                for (ray, (_, varied)) in rays.iter_mut().zip(some) {
-                    *ray = *varied;
-                }
-                self.paint(looks, number, outcomes, (&rays[..some.len()], lit));
+            rays.clear();
+            for (_, some) in same {
+                rays.extend(some.clone());
+            }
+            for some in rays.chunks(WIDTH) {
+                self.paint(looks, number, outcomes, (some, lit));
             }
         }
         looks.varied = varied;
@@ -191,7 +192,8 @@ impl Palette {
         };
         let number = number as u32;
         if !self.swatches[number as usize].patterns.is_empty() {
-            looks.varied.extend(rays.map(|i| (number, i as u32)));
+            let some = rays.start as u32..end as u32;
+            looks.varied.push((number, some));
         }
         looks.numbers.resize(end, number);
     }
@@ -422,16 +424,16 @@ mod tests {
             }),
         ]);
         let outcome = |i: u64| Outcome {
-            verdict: if i % 7 == 4 {
+            verdict: if i % 7 == 4 && i < 200 {
                 Verdict::Miss
             } else {
                 Verdict::Hit
             },
-            part: (i % 5) as u32,
+            part: (if i < 200 { i % 5 } else { i / 40 % 5 }) as u32,
             point: DVec3::from_array([0, 1, 2].map(|k| 4.0 * random(100 + 3 * i + k) - 2.0)),
             ..Outcome::NOTHING
         };
-        let outcomes: Outcomes = (0..200).map(outcome).collect();
+        let outcomes: Outcomes = (0..600).map(outcome).collect();
         let palette = Palette::new(&materials.0);
         let mut looks = Looks::default();
         // What was there before is of no concern.

@@ -94,7 +94,7 @@ impl Paths {
         &self.weight
     }
 
-    /// Whether all weigh 1.
+    /// Whether it is known that all weigh 1.
     pub fn are_full(&self) -> bool {
         self.is_fresh
     }
@@ -134,14 +134,15 @@ impl Waves {
         }
     }
 
-    /// Adds the rays of these numbers of columns: where they go, and what each weighs, belongs to and travels in. Those of a
-    /// sample come one after the other. Waves that are done with are used again.
+    /// Adds the rays of these numbers of columns: where they go, and what each weighs, belongs to and travels in, which is empty
+    /// space for all of them without `media`. Those of a sample come one after the other. Waves that are done with are used
+    /// again.
     pub fn take<'a>(
         &mut self,
         (numbers, spare): (&[u32], &mut Vec<Wave>),
         (rays, weight): ([&[f64]; Rays::COLUMNS], [&[f64]; 3]),
         sample: impl Fn(u32) -> u32,
-        media: impl Fn(u32) -> &'a Media,
+        media: Option<impl Fn(u32) -> &'a Media>,
     ) {
         let mut left = numbers;
         while !left.is_empty() {
@@ -165,9 +166,12 @@ impl Waves {
             if let Some(wave) = self.waves.last_mut() {
                 wave.rays.pick(rays, some);
                 wave.paths.weight.pick(weight, some);
-                for k in some {
-                    wave.paths.sample.push(sample(*k));
-                    wave.paths.media.push(media(*k));
+                let paths = &mut wave.paths;
+                paths.is_fresh = false;
+                paths.sample.extend(some.iter().map(|k| sample(*k)));
+                match &media {
+                    Some(media) => some.iter().for_each(|k| paths.media.push(media(*k))),
+                    None => paths.media.push_all(&Media::EMPTY, some.len()),
                 }
             }
             left = rest;
@@ -196,9 +200,14 @@ mod tests {
         let column: Vec<f64> = (0..count).map(f64::from).collect();
         let numbers: Vec<u32> = (0..count).collect();
         let columns = ([&column[..]; Rays::COLUMNS], [&column[..]; 3]);
-        waves.take((&numbers, spare), columns, sample, |k| {
-            &media[k as usize % media.len()]
-        });
+        let media_of = |k: u32| &media[k as usize % media.len()];
+        let are_empty = media.iter().all(Media::is_empty);
+        waves.take(
+            (&numbers, spare),
+            columns,
+            sample,
+            (!are_empty).then_some(media_of),
+        );
     }
 
     #[test]

@@ -57,7 +57,7 @@ pub struct Received {
 }
 
 impl Received {
-    /// Forgets all of it, for that many rays, whose first light is [`Received::show`]n.
+    /// Forgets all of it, for that many rays; their light begins with [`Received::gather`].
     fn reset(&mut self, rays: usize) {
         self.radiance.resize(0);
         self.unknown.clear();
@@ -75,9 +75,11 @@ impl Received {
         run_at(level, more);
     }
 
-    /// Adds light to these samples, of which it takes the first, for all of them in order, as it is; `light` is lost.
-    fn show(&mut self, samples: &[u32], light: &mut Columns<3>, level: Level) {
+    /// Adds light to these samples, after which `light` has any numbers. The first light there is, which has to be that of all rays
+    /// in order, is taken as it is.
+    fn gather(&mut self, samples: &[u32], light: &mut Columns<3>, level: Level) {
         if self.radiance.is_empty() {
+            debug_assert!(samples.iter().copied().eq(0..self.unknown.len() as u32));
             mem::swap(&mut self.radiance, light);
         } else {
             self.add(samples, light.columns(), level);
@@ -251,7 +253,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         census.misses += rays.len() as u64 - hits - unknown;
     }
 
-    /// Whether any of the camera rays in a beam may meet anything.
+    /// Whether any of the camera rays in a beam may meet anything; the time of asking counts as that of tracing them.
     pub fn may_meet(&self, beam: &Beam, census: &mut Census) -> bool {
         census.timed(|t| &mut t.primary, || self.surfaces.may_meet(beam))
     }
@@ -278,6 +280,9 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
     }
 
     /// The light along camera rays that hit `outcomes`.
+    ///
+    /// # Panics
+    /// If there are not as many outcomes as rays.
     pub fn light(&self, rays: &Rays, outcomes: &Outcomes, census: &mut Census) -> Received {
         let mut light = Received::default();
         self.light_into(rays, outcomes, census, &mut light);
@@ -285,6 +290,9 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
     }
 
     /// As [`Whitted::light`]; what was in `light` before is forgotten.
+    ///
+    /// # Panics
+    /// If there are not as many outcomes as rays.
     pub fn light_into(
         &self,
         rays: &Rays,
@@ -292,6 +300,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         census: &mut Census,
         light: &mut Received,
     ) {
+        assert_eq!(rays.len(), outcomes.len(), "each ray has an outcome");
         light.reset(rays.len());
         let mut memory = MEMORY.with(Cell::take).unwrap_or_else(|| Memory {
             lit: Lit::new(),
@@ -359,7 +368,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             glow,
         };
         run_at(self.level, light);
-        studio.light.show(&paths.sample, glow, self.level);
+        studio.light.gather(&paths.sample, glow, self.level);
         let wave = Meetings {
             rays,
             paths,
@@ -400,7 +409,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             glow,
         };
         run_at(self.level, above);
-        studio.light.show(&paths.sample, glow, self.level);
+        studio.light.gather(&paths.sample, glow, self.level);
     }
 
     /// Weakens paths over the distances that their rays went, and adds the light that fog adds to them on the way.
@@ -428,7 +437,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                 channel[i] = weight[k] * passed;
             }
         }
-        studio.light.show(&paths.sample, glow, self.level);
+        studio.light.gather(&paths.sample, glow, self.level);
     }
 
     /// Adds what the lamps send to a wave's hits. Lamp by lamp, so that shadow rays that are traced together go to one place.

@@ -133,7 +133,7 @@ impl Beam {
         Self::within(origins, directions)
     }
 
-    /// The same of a beam around this bundle, with no larger balls than its rays need.
+    /// This beam, which is that of a bundle, with no larger balls than its rays need.
     pub(super) fn tightened(&self, bundle: &Bundle, level: Level) -> Self {
         let from = [self.origins, self.directions].map(|[low, high]| 0.5 * (low + high));
         let squares = run_at(level, Distances { bundle, from });
@@ -322,13 +322,21 @@ mod tests {
         (0..45).map(ray).collect()
     }
 
-    fn beam(rays: &[Ray]) -> Beam {
+    /// The beam of these rays, and the same tightened.
+    fn beams(rays: &[Ray]) -> [Beam; 2] {
         let numbers: Vec<u32> = (0..rays.len() as u32).collect();
         let mut bundle = Bundle::new();
         let level = Level::best();
         let columns: Rays = rays.iter().collect();
         bundle.fill(&columns.columns(), &numbers);
-        Beam::around(&bundle, level).tightened(&bundle, level)
+        let beam = Beam::around(&bundle, level);
+        let tight = beam.tightened(&bundle, level);
+        [beam, tight]
+    }
+
+    fn beam(rays: &[Ray]) -> Beam {
+        let [_, tight] = beams(rays);
+        tight
     }
 
     #[test]
@@ -396,14 +404,16 @@ mod tests {
     fn balls_hold_the_rays() {
         for seed in 0..500u64 {
             let rays = rays(seed);
-            let beam = beam(&rays);
             let from = 10.0 * random(seed + 1);
             let to = from + random(seed + 2);
-            let (centre, radius) = beam.ball(from, to);
-            for ray in &rays {
-                for k in 0..=4 {
-                    let t = from + (to - from) * f64::from(k) / 4.0;
-                    assert!(ray.at(t).distance(centre) <= radius, "seed {seed}");
+            let [loose, tight] = beams(&rays).map(|beam| beam.ball(from, to));
+            assert!(tight.1 <= loose.1);
+            for (centre, radius) in [loose, tight] {
+                for ray in &rays {
+                    for k in 0..=4 {
+                        let t = from + (to - from) * f64::from(k) / 4.0;
+                        assert!(ray.at(t).distance(centre) <= radius, "seed {seed}");
+                    }
                 }
             }
         }

@@ -32,6 +32,8 @@ impl World {
             ..Demands::of(settings.method)
         };
         let part = Part::new(union(shown)?, demands, level)?;
-        Ok(Self::of_parts(vec![part], *settings, level))
+        let mut world = Self::of_parts(vec![part], *settings, level);
+        world.tells_empty = false;
+        Ok(world)
     }
 }

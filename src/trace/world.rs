@@ -62,6 +62,8 @@ pub struct World {
     pub(super) horizon: f64,
     /// Whether any part is a combination that is thinned out.
     pub(super) is_thinned: bool,
+    /// Whether beams that meet nothing are told: not by what is to judge those that are, nor where nothing is to be passed over.
+    pub(super) tells_empty: bool,
     /// The instructions that lanes use.
     pub(super) level: Level,
 }
@@ -146,6 +148,7 @@ impl World {
             settings,
             horizon: reach,
             is_thinned: parts.iter().any(Part::is_thinned),
+            tells_empty: settings.method != Method::Reference,
             level,
             parts,
         }
@@ -197,8 +200,12 @@ impl World {
         *found = outcomes.collect();
     }
 
-    /// Whether one of the rays of a beam, however far it is followed, may meet anything. Where it says no, none does.
+    /// Whether one of the rays of a beam, however far it is followed, may meet anything. Where it says no, none does; the
+    /// reference never does.
     pub fn may_meet(&self, beam: &Beam) -> bool {
+        if !self.tells_empty {
+            return true;
+        }
         let hierarchy = &self.hierarchy;
         self.endless
             .iter()

@@ -2,13 +2,15 @@
 
 use fieldstone::catalogue::*;
 use fieldstone::output::{Metadata, picture, save};
-use fieldstone::render::{Channel, Film, Progress, RenderOptions, Rendered, render};
+use fieldstone::render::{Channel, Film, Progress, RenderOptions, Rendered, View, render};
 use fieldstone::scene::{
     Camera, Falloff, Fog, Light, Material, Method, Node, Projection, Scene, Shadow, Sky, Source,
     Term,
 };
-use fieldstone::shade::Surfaces;
-use fieldstone::trace::{Occlusions, Outcomes, Paint, RayColumns, Rays, Visibility, World};
+use fieldstone::shade::{Census, Surfaces, Whitted};
+use fieldstone::trace::{
+    Occlusions, Outcome, Outcomes, Paint, RayColumns, Rays, Visibility, World,
+};
 use glam::DVec3;
 use std::sync::Arc;
 use std::sync::Mutex;
@@ -491,4 +493,45 @@ fn statistics_are_written_with_their_schema() {
     assert_eq!(json["schema"], 1);
     assert_eq!(json["rays"]["primary"], 75 * 50);
     assert!(json["milliseconds"]["trace"].is_number());
+}
+
+/// Lanes read whole groups of rows: behind the last ray lies what was there before.
+#[test]
+fn light_does_not_depend_on_what_lies_behind_the_last_ray() {
+    let scene = scene(1.0);
+    let world = World::new(&scene).expect("a world");
+    let whitted = Whitted::new(&scene, &world);
+    let view = View::new(&scene.camera, scene.settings.size);
+    let light = |rays: &Rays, mut outcomes: Outcomes| -> Vec<[f64; 3]> {
+        let mut census = Census::default();
+        whitted.meet_first(rays, &mut census, &mut outcomes);
+        assert!(census.hits > 0);
+        let light = whitted.light(rays, &outcomes, &mut census).radiance;
+        (0..rays.len()).map(|i| light.row(i)).collect()
+    };
+    for count in [1, 31, 33, 50, 64, 75] {
+        let pixels: Vec<[u32; 2]> = (0..count).map(|column| [column, 30]).collect();
+        let rays = view.rays(&pixels);
+        let mut behind = Rays::with_capacity(128);
+        behind.resize(128);
+        for column in behind.columns_mut() {
+            column.fill(f64::NAN);
+        }
+        behind.resize(rays.len());
+        for (column, source) in behind.columns_mut().into_iter().zip(rays.columns()) {
+            column.copy_from_slice(source);
+        }
+        let next = behind.lanes()[0].get(rays.len());
+        assert_eq!(next.is_some_and(|x| x.is_nan()), !count.is_multiple_of(32));
+        let nowhere = Outcome {
+            t: f64::NAN,
+            error: f64::NAN,
+            point: DVec3::NAN,
+            normal: DVec3::NAN,
+            ..Outcome::NOTHING
+        };
+        let nowhere = (0..128).map(|_| nowhere).collect();
+        let expected = light(&rays, Outcomes::default());
+        assert_eq!(light(&behind, nowhere), expected, "{count} rays");
+    }
 }

@@ -645,7 +645,7 @@ fn crowd(n: usize) -> (fieldstone::scene::Scene, Stage, Vec<Ray>) {
 
 #[test]
 fn light_does_not_depend_on_what_is_traced_together() {
-    // Enough rays that waves are cut between samples.
+    // Enough rays for many batches of each wave.
     let (scene, stage, rays) = crowd(50_000);
     let whitted = Whitted::new(&scene, &stage);
     let light = |rays: &[Ray]| {

@@ -504,7 +504,7 @@ fn light_does_not_depend_on_what_lies_behind_the_last_ray() {
     let view = View::new(&scene.camera, scene.settings.size);
     let light = |rays: &Rays, mut outcomes: Outcomes| -> Vec<[f64; 3]> {
         let mut census = Census::default();
-        whitted.meet_first(rays, &mut census, &mut outcomes);
+        whitted.meet_first((rays, true), &mut census, &mut outcomes);
         assert!(census.hits > 0);
         let light = whitted.light(rays, &outcomes, &mut census).radiance;
         (0..rays.len()).map(|i| light.row(i)).collect()

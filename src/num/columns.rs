@@ -63,7 +63,7 @@ impl<const N: usize> Columns<N> {
         self.up_to(self.rows)
     }
 
-    /// All columns up to a multiple of 32 rows: behind the last is whatever was there.
+    /// All columns up to a multiple of the lanes of [`F64x32`]: behind the last is whatever was there.
     #[inline(always)]
     pub fn lanes(&self) -> [&[f64]; N] {
         self.up_to(self.rows.next_multiple_of(LANES))

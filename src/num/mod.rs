@@ -4,6 +4,7 @@
 //! [`Lanes`] many values at once, [`Dual`] a value with exact derivatives, [`Interval`] the range over a region, [`Rounded`]
 //! how far `f32` can be off there, [`Bent`] how far the field can bend.
 
+mod batch;
 mod bent;
 mod columns;
 mod dual;
@@ -22,6 +23,7 @@ mod scalar;
 mod steep;
 mod vector;
 
+pub use batch::{BATCH, Column, ROOM};
 pub use bent::Bent;
 pub use columns::Columns;
 pub use dual::Dual;

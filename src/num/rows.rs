@@ -64,10 +64,10 @@ impl<'a> Rows<'a> {
             if self.is_in_order && numbers[SOME - 1] as usize - first == SOME - 1 {
                 taken.copy_from_slice(&column[first..first + SOME]);
             } else {
-                each(taken, numbers, |value, number| *value = column[number]);
+                gather(column, numbers, taken);
             }
         }
-        each(rest, others, |value, number| *value = column[number]);
+        gather(column, others, rest);
     }
 
     /// Copies values, one for each row, to where they belong in a column; of those for the same row the last.
@@ -119,11 +119,11 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// Calls `change` with each of some values and its number.
+/// Copies what a column has at these rows, one by one.
 #[inline(always)]
-fn each<T>(values: &mut [T], numbers: &[u32], change: impl Fn(&mut T, usize)) {
-    for (value, number) in values.iter_mut().zip(numbers) {
-        change(value, *number as usize);
+fn gather<T: Copy>(column: &[T], numbers: &[u32], taken: &mut [T]) {
+    for (value, number) in taken.iter_mut().zip(numbers) {
+        *value = column[*number as usize];
     }
 }
 

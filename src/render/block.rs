@@ -1,6 +1,7 @@
 //! Blocks: the squares of pixels whose rays are traced together.
 
 use super::area::Area;
+use crate::num::BATCH;
 
 /// The side of a block, in pixels: the rays of a block are traced together, with all that follows from them, so that
 /// what they find does not depend on how blocks are put together to tiles.
@@ -11,6 +12,9 @@ const SIDE: usize = BLOCK as usize;
 
 /// How many pixels a whole block has.
 pub(super) const PIXELS: usize = SIDE * SIDE;
+
+// What a block needs is treated at once.
+const _: () = assert!(PIXELS == BATCH);
 
 /// The places in a block along Morton's curve: each run of 64 is a square of 8 x 8, so that what is traced together lies
 /// together.

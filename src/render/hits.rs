@@ -32,12 +32,8 @@ impl Hits {
             let (mut hits, mut outcomes) = (Self::default(), Outcomes::default());
             for area in tile.areas() {
                 let rays = view.rays(Block::of(&area).pixels());
-                if whitted.may_meet(&view.beam(&area), &mut hits.census) {
-                    whitted.meet_first(&rays, &mut hits.census, &mut outcomes);
-                } else {
-                    outcomes.nothing(rays.len());
-                    hits.census.miss(rays.len());
-                }
+                let may_meet = whitted.may_meet(&view.beam(&area), &mut hits.census);
+                whitted.meet_first((&rays, may_meet), &mut hits.census, &mut outcomes);
                 hits.outcomes.extend(outcomes.iter());
                 hits.rays.extend(rays.iter());
             }

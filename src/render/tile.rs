@@ -73,8 +73,8 @@ impl Tile {
         for area in self.areas() {
             let pixels = area.pixels();
             let beam = shared.view.beam(&area);
-            let is_empty = !shared.whitted.may_meet(&beam, &mut tally.census);
-            if is_empty && let Some(color) = shared.backdrop() {
+            let may_meet = shared.whitted.may_meet(&beam, &mut tally.census);
+            if !may_meet && let Some(color) = shared.backdrop() {
                 tally.miss(pixels * samples as usize);
                 even.get_or_insert_with(|| Exposure::even(shared.channels, samples, color))
                     .develop_all(samples, &area, patch);
@@ -84,7 +84,7 @@ impl Tile {
             exposure.reset(pixels);
             for sample in 0..samples {
                 desk.aim(shared, block.pixels(), sample);
-                desk.meet(shared, is_empty, &mut tally);
+                desk.meet(shared, may_meet, &mut tally);
                 desk.expose(shared, &mut exposure, &mut tally);
             }
             tally.unknown_pixels += exposure.unknown() as u64;
@@ -116,21 +116,16 @@ impl Desk {
         shared.view.aim(pixels, aside, &mut self.rays);
     }
 
-    /// Finds what the rays meet, if it is not known that this is nothing.
+    /// Finds what the rays meet, if they may meet anything.
     fn meet<S: Surfaces + ?Sized>(
         &mut self,
         shared: &Shared<S>,
-        is_empty: bool,
+        may_meet: bool,
         tally: &mut Tally,
     ) {
-        if is_empty {
-            self.outcomes.nothing(self.rays.len());
-            return tally.miss(self.rays.len());
-        }
-        let census = &mut tally.census;
-        shared
-            .whitted
-            .meet_first(&self.rays, census, &mut self.outcomes);
+        let rays = (&self.rays, may_meet);
+        let whitted = &shared.whitted;
+        whitted.meet_first(rays, &mut tally.census, &mut self.outcomes);
         tally.steps.add_all(&self.outcomes.steps);
     }
 

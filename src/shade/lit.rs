@@ -10,25 +10,16 @@ use super::light::{Arrivals, Lamp};
 use super::offset;
 use super::phong::{Cosines, halfway};
 use crate::field::Task;
+use crate::num::{BATCH, Column, ROOM};
 use crate::trace::vector::place;
 use crate::trace::{Footprint, Outcomes, RayColumns, Rays};
 use glam::DVec3;
 use std::ops::Range;
 
-/// How many hits are lit at once.
-pub const CHUNK: usize = 256;
-
 /// Of so many neighbouring hits mostly all gain something, or none.
 const SOME: usize = 16;
 
-/// The length of a column: a cache line more than a chunk. Were it a power of two, columns side by side would share the same few
-/// places of the cache and drive each other out: a twentieth of the time of s1 and three spheres.
-pub const ROOM: usize = CHUNK + 8;
-
-/// A number for each hit of a chunk.
-pub type Column = [f64; ROOM];
-
-/// Up to [`CHUNK`] hits as their viewer sees them, and what one lamp sends them. What was not hit is there too, with numbers
+/// Up to [`BATCH`] hits as their viewer sees them, and what one lamp sends them. What was not hit is there too, with numbers
 /// that mean nothing. Every column begins with a cache line.
 #[repr(C, align(64))]
 pub struct Lit {
@@ -78,16 +69,26 @@ impl Lit {
         })
     }
 
-    /// The rays from these hits to the lamp, and what they gain from it, by channel.
-    pub fn shadowed(&mut self) -> (RayColumns<'_>, [&mut [f64]; 3]) {
-        let count = self.numbers.len();
+    /// The rays from these hits to the lamp.
+    pub fn rays(&self) -> RayColumns<'_> {
         let ([a, b, c], [d, e, f]) = (&self.start, &self.way);
         let mut rays = [a, b, c, d, e, f, &self.end, &self.width, &self.spread].map(|c| &c[..]);
         for column in &mut rays {
-            *column = &column[..count];
+            *column = &column[..self.numbers.len()];
         }
+        rays
+    }
+
+    /// What they gain from it, by channel.
+    pub fn gained(&self) -> [&[f64]; 3] {
+        let [r, g, b] = &self.gained;
+        [r, g, b].map(|channel| &channel[..self.numbers.len()])
+    }
+
+    /// The same, to be changed.
+    pub fn gained_mut(&mut self) -> [&mut [f64]; 3] {
         let [r, g, b] = &mut self.gained;
-        (rays, [r, g, b].map(|channel| &mut channel[..count]))
+        [r, g, b].map(|channel| &mut channel[..self.numbers.len()])
     }
 
     /// Lists which of these hits gain something, in order.
@@ -122,7 +123,7 @@ pub struct Face<'a> {
     pub rays: &'a Rays,
     /// What they found.
     pub outcomes: &'a Outcomes,
-    /// Which of them; at most [`CHUNK`].
+    /// Which of them; at most [`BATCH`].
     pub numbers: Range<usize>,
 }
 
@@ -137,7 +138,7 @@ impl<'a> Task for Face<'a> {
         let [t, error, g, h, k, d, e, f] = outcomes.lanes();
         let columns = [a, b, c, d, e, f, g, h, k, t, error, width, spread];
         for first in (0..some.len()).step_by(GROUP) {
-            let first = first.min(CHUNK - GROUP);
+            let first = first.min(BATCH - GROUP);
             let [a, b, c, d, e, f, g, h, k, t, error, at_origin, grows] =
                 groups(columns, some.start + first);
             let (mut normal, mut start) = ([[0.0; GROUP]; 3], [[0.0; GROUP]; 3]);
@@ -189,7 +190,7 @@ impl<'a> Task for Shine<'a> {
         let [_, _, a, b, c, ..] = self.outcomes.lanes();
         let [_, _, _, d, e, f, ..] = self.rays.lanes();
         for first in (0..some.len()).step_by(GROUP) {
-            let first = first.min(CHUNK - GROUP);
+            let first = first.min(BATCH - GROUP);
             let [a, b, c, d, e, f] = groups([a, b, c, d, e, f], some.start + first);
             let arrivals = self.lamp.shine([a, b, c]);
             shine(lit, &arrivals, [d, e, f], first);

@@ -212,6 +212,16 @@ impl Surroundings {
         self.runs.get(run).map_or(&Media::EMPTY, |(media, _)| media)
     }
 
+    /// Adds those of the rays of others with these numbers.
+    pub fn pick(&mut self, others: &Self, numbers: impl ExactSizeIterator<Item = u32>) {
+        if others.are_empty() {
+            return self.push_all(&Media::EMPTY, numbers.len());
+        }
+        for number in numbers {
+            self.push(others.at(number as usize));
+        }
+    }
+
     /// Adds those of a ray.
     pub fn push(&mut self, media: &Media) {
         self.push_all(media, 1);

@@ -4,7 +4,7 @@ mod attenuation;
 mod census;
 mod features;
 mod fresnel;
-mod gains;
+mod gain;
 mod highlight;
 mod light;
 mod lighting;

@@ -7,23 +7,22 @@
 
 use super::fresnel::share;
 use super::highlight::GROUP;
-use super::lit::{CHUNK, Column, ROOM};
 use super::looks::Looks;
 use super::medium::{Crossing, Crossings, Media, Medium, Surroundings};
 use super::offset;
 use super::palette::Palette;
 use super::reflect::reflected;
 use super::refract::{bent, transmitted_cosine};
-use super::wave::{Meetings, Wave, Waves};
+use super::wave::{Meetings, Wave};
 use super::{Census, FAINTEST, Surface};
 use crate::field::{Level, Task, run_at};
-use crate::num::Rows;
+use crate::num::{BATCH, Column, ROOM, Rows};
 use crate::trace::Footprint;
 use crate::trace::vector::place;
 use glam::DVec3;
 use std::ops::Range;
 
-/// Up to [`CHUNK`] hits that send rays on, and those rays.
+/// Up to [`BATCH`] hits that send rays on, and those rays.
 pub struct Senders {
     /// Which rays of the wave they are of.
     numbers: Vec<u32>,
@@ -31,8 +30,10 @@ pub struct Senders {
     incident: [Column; 3],
     t: Column,
     error: Column,
-    /// What they weigh.
+    /// What they weigh, belong to and travel in.
     weight: [Column; 3],
+    samples: Vec<u32>,
+    around: Surroundings,
     /// Where they hit, and the unit normals there: outward, then on the side from which the ray came.
     point: [Column; 3],
     outward: [Column; 3],
@@ -100,11 +101,13 @@ impl Senders {
     pub fn new() -> Box<Self> {
         let column = [0.0; ROOM];
         Box::new(Self {
-            numbers: Vec::with_capacity(CHUNK),
+            numbers: Vec::with_capacity(BATCH),
             incident: [column; 3],
             t: column,
             error: column,
             weight: [column; 3],
+            samples: Vec::new(),
+            around: Surroundings::default(),
             point: [column; 3],
             outward: [column; 3],
             width: column,
@@ -120,13 +123,13 @@ impl Senders {
         })
     }
 
-    /// Adds the mirrored and the refracted rays of all hits of a wave to the next waves of each kind, unless they are deeper
+    /// Adds the mirrored and the refracted rays of all hits of a wave to the next wave of each kind, unless they are deeper
     /// than `depth` or too faint.
     pub fn send_on(
         &mut self,
         wave: Meetings,
         (palette, looks): (&Palette, &Looks),
-        (next, depth, spare): (&mut [Waves; 2], u32, &mut Vec<Wave>),
+        (next, depth): (&mut [Wave; 2], u32),
         (census, level): (&mut Census, Level),
     ) {
         let mut first = 0;
@@ -139,10 +142,13 @@ impl Senders {
             run_at(level, Turn(self));
             let [mirrored, through] = &mut *next;
             let is_too_deep = mirrored.depth > depth;
-            let next = (mirrored, is_too_deep, &mut *spare);
-            census.reflected += self.push(&self.mirrored, wave, next, None, census);
-            let (next, beyond) = ((through, is_too_deep, &mut *spare), Some(&self.beyond));
-            census.refracted += self.push(&self.through, wave, next, beyond, census);
+            let kinds = [
+                (&self.mirrored, mirrored, &self.around),
+                (&self.through, through, &self.beyond),
+            ];
+            let sent = kinds.map(|kind| self.push(kind, is_too_deep, census));
+            census.reflected += sent[0];
+            census.refracted += sent[1];
         }
     }
 
@@ -163,7 +169,7 @@ impl Senders {
             };
             let range = range.start.max(first)..range.end;
             let from = self.numbers.len();
-            let some = range.start..range.end.min(range.start + CHUNK - from);
+            let some = range.start..range.end.min(range.start + BATCH - from);
             self.numbers.extend(some.start as u32..some.end as u32);
             let to = self.numbers.len();
             self.reflect[from..to].fill(surface.reflect);
@@ -225,15 +231,18 @@ impl Senders {
         let [width, spread] = rays.footprint();
         rows.take(width, &mut self.width);
         rows.take(spread, &mut self.spread);
+        self.samples.resize(self.numbers.len(), 0);
+        rows.take(&wave.paths.sample, &mut self.samples);
+        self.around.clear();
+        self.around
+            .pick(&wave.paths.media, self.numbers.iter().copied());
     }
 
-    /// Adds rays of one kind to their next waves; gives how many. Without `beyond`, they travel in what the hits' rays do.
+    /// Adds rays of one kind, which travel in these media, to their next wave; gives how many.
     fn push(
         &self,
-        branches: &Branches,
-        wave: Meetings,
-        (next, is_too_deep, spare): (&mut Waves, bool, &mut Vec<Wave>),
-        beyond: Option<&Surroundings>,
+        (branches, next, media): (&Branches, &mut Wave, &Surroundings),
+        is_too_deep: bool,
         census: &mut Census,
     ) -> u64 {
         let mut chosen: Vec<u32> = Vec::with_capacity(self.numbers.len());
@@ -250,22 +259,12 @@ impl Senders {
             }
         }
         let ([a, b, c], [d, e, f]) = (&branches.start, &branches.direction);
-        let columns = [a, b, c, d, e, f, &self.end, &self.width, &self.spread];
-        let number = |k: u32| self.numbers[k as usize] as usize;
-        let media = |k: u32| match beyond {
-            Some(beyond) => beyond.at(k as usize),
-            None => wave.paths.media.at(number(k)),
-        };
-        let are_empty = beyond.unwrap_or(&wave.paths.media).are_empty();
-        next.take(
-            (&chosen, spare),
-            (
-                columns.map(|column| &column[..]),
-                branches.weight.each_ref().map(|column| &column[..]),
-            ),
-            |k| wave.paths.sample[number(k)],
-            (!are_empty).then_some(media),
+        let rays = [a, b, c, d, e, f, &self.end, &self.width, &self.spread];
+        let columns = (
+            rays.map(|column| &column[..]),
+            branches.weight.each_ref().map(|column| &column[..]),
         );
+        next.take(&chosen, columns, (&self.samples, media));
         chosen.len() as u64
     }
 }
@@ -283,7 +282,7 @@ impl Task for Turn<'_> {
         let s = self.0;
         let count = s.numbers.len();
         for first in (0..count).step_by(GROUP) {
-            let first = first.min(CHUNK - GROUP);
+            let first = first.min(BATCH - GROUP);
             mirror(s, first);
             let mut is_bent = false;
             for k in first..first + GROUP {

@@ -6,16 +6,14 @@
 
 use super::attenuation::absorbed;
 use super::census::sum;
-use super::gains::Gains;
 use super::highlight::GROUP;
+use super::lit::Lit;
 use super::looks::Looks;
 use super::medium::{Crossings, Medium, Surroundings};
 use super::palette::Palette;
 use super::{Census, Features, Surface, Surfaces, offset};
 use crate::field::{Level, Task, run_at};
-use crate::trace::{
-    Occlusions, Outcome, Outcomes, Ray, RayColumns, Rays, Verdict, Visibility, count,
-};
+use crate::trace::{Occlusions, Outcome, Outcomes, Ray, Rays, Verdict, Visibility, count};
 use glam::DVec3;
 
 /// How many boundaries a shadow ray may cross before it is given up as unknown, and taken as blocked.
@@ -37,70 +35,63 @@ impl Passage {
     };
 }
 
-/// Takes from `gains` what does not reach their hits; gives the rays of which the tracer could not tell. Where it could not
-/// tell whether something is in the way, nothing is.
-pub fn settle<S: Surfaces + ?Sized>(
+/// Hits of a wave, and the rays from them to a lamp.
+pub struct Shadowed<'a> {
+    /// The hits with what they gain from the lamp if nothing is in the way.
+    pub lit: &'a mut Lit,
+    /// Those that gain something, by their numbers in it, in order.
+    pub hits: &'a [u32],
+    /// What all rays of the wave travel in.
+    pub media: &'a Surroundings,
+}
+
+/// What shadow rays meet; memory that is used again for others.
+#[derive(Default)]
+pub struct Obstacles {
+    occlusions: Occlusions,
+    outcomes: Outcomes,
+    looks: Looks,
+}
+
+/// Takes from hits what does not reach them; gives those of which the tracer could not tell. Where it could not tell whether
+/// something is in the way, nothing is.
+pub fn darken<S: Surfaces + ?Sized>(
     seen: (&S, &Palette),
     features: &Features,
-    (gains, met): (&mut Gains, &mut Boundaries),
+    (shadowed, met): (Shadowed, &mut Obstacles),
     (census, level): (&mut Census, Level),
 ) -> Vec<u32> {
     if features.tinted_shadows {
-        walk_all(seen, (gains, met), census)
+        weaken(seen, shadowed, met, census)
     } else if features.opaque_shadows {
-        let all: Vec<u32> = (0..gains.rays.len() as u32).collect();
-        let Gains {
-            rays,
-            radiance,
-            occlusions,
-            ..
-        } = gains;
-        let shadow = Shadowed {
-            rays: &rays.columns(),
-            numbers: &all,
-            gained: radiance.columns_mut(),
-        };
-        stop(seen.0, shadow, occlusions, (census, level))
+        stop(seen.0, shadowed, &mut met.occlusions, (census, level))
     } else {
         Vec::new()
     }
 }
 
-/// Rays to a lamp, and what their hits gain from it if nothing is in the way.
-pub struct Shadowed<'a> {
-    /// The rays.
-    pub rays: &'a RayColumns<'a>,
-    /// Those that gain something, in order.
-    pub numbers: &'a [u32],
-    /// What is gained, by channel.
-    pub gained: [&'a mut [f64]; 3],
-}
-
 /// Takes what is gained along rays that meet an opaque surface; gives those of which the tracer could not tell.
-pub fn stop<S: Surfaces + ?Sized>(
+fn stop<S: Surfaces + ?Sized>(
     surfaces: &S,
-    Shadowed {
-        rays,
-        numbers,
-        gained,
-    }: Shadowed,
+    Shadowed { lit, hits, .. }: Shadowed,
     occlusions: &mut Occlusions,
     (census, level): (&mut Census, Level),
 ) -> Vec<u32> {
-    census.shadow += numbers.len() as u64;
+    census.shadow += hits.len() as u64;
     census.timed(
         |t| &mut t.shadow,
-        || surfaces.occluded(rays, numbers, occlusions),
+        || surfaces.occluded(&lit.rays(), hits, occlusions),
     );
     census.evaluations += sum(&occlusions.evaluations);
     let verdicts = &occlusions.verdict[..];
     if count(verdicts, Verdict::Hit) > 0 {
+        let gained = lit.gained_mut();
         run_at(level, Darken { gained, verdicts });
     }
-    if count(&occlusions.verdict, Verdict::Unknown) == 0 {
+    if count(verdicts, Verdict::Unknown) == 0 {
         return Vec::new();
     }
-    let verdicts = (0..).zip(&occlusions.verdict);
+    let verdicts = (0..).zip(verdicts);
     let unknown = verdicts.filter(|(_, verdict)| **verdict == Verdict::Unknown);
     let unknown: Vec<u32> = unknown.map(|(i, _)| i).collect();
     census.unknown_secondary += unknown.len() as u64;
@@ -135,15 +126,35 @@ impl Task for Darken<'_> {
     }
 }
 
-/// Weakens what comes through tinted surfaces.
-fn walk_all<S: Surfaces + ?Sized>(
+/// Weakens what comes through tinted surfaces; gives the hits of which the tracer could not tell.
+fn weaken<S: Surfaces + ?Sized>(
     seen: (&S, &Palette),
-    (gains, met): (&mut Gains, &mut Boundaries),
+    Shadowed { lit, hits, media }: Shadowed,
+    met: &mut Obstacles,
     census: &mut Census,
 ) -> Vec<u32> {
-    let mut passages = vec![Passage::CLEAR; gains.rays.len()];
-    walk(seen, (gains, met), &mut passages, census);
-    for (k, channel) in gains.radiance.columns_mut().into_iter().enumerate() {
+    let mut walkers = Walkers::default();
+    walkers.rays.pick(lit.rays(), hits);
+    let first = lit.numbers.start as u32;
+    walkers
+        .media
+        .pick(media, hits.iter().map(|hit| first + hit));
+    walkers.indices.extend_from_slice(hits);
+    let mut passages = vec![Passage::CLEAR; lit.numbers.len()];
+    for _ in 0..MAX_CROSSINGS {
+        if walkers.rays.is_empty() {
+            break;
+        }
+        walkers = step(seen, &walkers, met, &mut passages, census);
+    }
+    for index in walkers.indices {
+        census.unknown_secondary += 1;
+        passages[index as usize] = Passage {
+            share: DVec3::ZERO,
+            unknown: true,
+        };
+    }
+    for (k, channel) in lit.gained_mut().into_iter().enumerate() {
         for (gained, passage) in channel.iter_mut().zip(&passages) {
             *gained *= passage.share[k];
         }
@@ -157,56 +168,26 @@ fn walk_all<S: Surfaces + ?Sized>(
 struct Walkers {
     rays: Rays,
     media: Surroundings,
-    /// Which shadow ray each of them is.
+    /// Which hit each of them is of.
     indices: Vec<u32>,
-}
-
-/// What shadow rays meet at a boundary; memory that is used again for the next.
-#[derive(Default)]
-pub struct Boundaries {
-    outcomes: Outcomes,
-    looks: Looks,
-}
-
-/// Follows the rays through tinted surfaces, all of them one boundary at a time.
-fn walk<S: Surfaces + ?Sized>(
-    seen: (&S, &Palette),
-    (gains, met): (&Gains, &mut Boundaries),
-    passages: &mut [Passage],
-    census: &mut Census,
-) {
-    if gains.rays.is_empty() {
-        return;
-    }
-    let indices: Vec<u32> = (0..gains.rays.len() as u32).collect();
-    let all = (&gains.rays, &gains.media, &indices[..]);
-    let mut walkers = step(seen, all, met, passages, census);
-    for _ in 1..MAX_CROSSINGS {
-        if walkers.rays.is_empty() {
-            return;
-        }
-        let all = (&walkers.rays, &walkers.media, &walkers.indices[..]);
-        walkers = step(seen, all, met, passages, census);
-    }
-    for index in walkers.indices {
-        census.unknown_secondary += 1;
-        passages[index as usize] = Passage {
-            share: DVec3::ZERO,
-            unknown: true,
-        };
-    }
 }
 
 /// Takes every walker to its next boundary; those that arrive at the light or are blocked fall out.
 fn step<S: Surfaces + ?Sized>(
     (surfaces, palette): (&S, &Palette),
-    walkers: (&Rays, &Surroundings, &[u32]),
-    met: &mut Boundaries,
+    walkers: &Walkers,
+    met: &mut Obstacles,
     passages: &mut [Passage],
     census: &mut Census,
 ) -> Walkers {
-    let (rays, media, indices) = walkers;
-    let Boundaries { outcomes, looks } = met;
+    let Walkers {
+        rays,
+        media,
+        indices,
+    } = walkers;
+    let Obstacles {
+        outcomes, looks, ..
+    } = met;
     census.shadow += rays.len() as u64;
     census.timed(
         |t| &mut t.shadow,
@@ -248,11 +229,16 @@ fn step<S: Surfaces + ?Sized>(
 
 /// Takes walker number `i` through a surface that it hit, if anything is left of the light behind it.
 fn pass(
-    (rays, media, indices): (&Rays, &Surroundings, &[u32]),
+    walkers: &Walkers,
     i: usize,
     (surface, hit): (&Surface, &Outcome),
     (passages, further, crossings): (&mut [Passage], &mut Walkers, &mut Crossings),
 ) {
+    let Walkers {
+        rays,
+        media,
+        indices,
+    } = walkers;
     let (ray, media, index) = (&rays.at(i), media.at(i), indices[i]);
     let passage = &mut passages[index as usize];
     passage.share *= absorbed(media.absorb(), hit.t);

@@ -12,21 +12,21 @@
 
 use super::attenuation::{absorbed, sight, through_fog};
 use super::census::sum;
-use super::gains::{Gain, Gains};
+use super::gain::Gain;
 use super::light::Lamp;
 use super::lighting::{LIGHTING, Lighting};
-use super::lit::{CHUNK, Face, Lit, Shine};
+use super::lit::{Face, Lit, Shine};
 use super::looks::Looks;
 use super::onward::Senders;
 use super::palette::Palette;
-use super::shadow::{Boundaries, Shadowed, settle, stop};
+use super::shadow::{Obstacles, Shadowed, darken};
 use super::sky::radiance;
-use super::wave::{Meetings, Paths, Wave, Waves};
+use super::wave::{Meetings, Paths, Wave};
 use super::{Census, Features, Surfaces};
 use crate::field::{Level, Task, run_at};
-use crate::num::{Columns, Rows};
+use crate::num::{BATCH, Columns, Rows};
 use crate::scene::{Fog, Scene, Sky};
-use crate::trace::{Beam, Occlusions, Outcomes, Rays, Verdict, Visibility, count};
+use crate::trace::{Beam, Outcomes, Rays, Verdict, Visibility, count};
 use glam::DVec3;
 use std::cell::Cell;
 use std::mem;
@@ -64,7 +64,7 @@ impl Received {
         self.unknown.resize(rays, false);
     }
 
-    /// Adds light to these samples, one after the other, with the instructions of a level.
+    /// Adds light to these samples, each once and in order, with the instructions of a level.
     fn add(&mut self, samples: &[u32], light: [&[f64]; 3], level: Level) {
         let sums = self.radiance.columns_mut();
         let more = Brighten {
@@ -108,7 +108,7 @@ impl Task for Brighten<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let rows = Rows::of(self.samples);
+        let rows = Rows::in_order(self.samples);
         for (sums, light) in self.sums.into_iter().zip(self.light) {
             rows.add(sums, light);
         }
@@ -121,12 +121,10 @@ struct Memory {
     looks: Looks,
     /// What a wave shows without any lamp.
     glow: Columns<3>,
-    /// What it gains from each lamp.
-    gains: Vec<Gains>,
-    /// Which hits of a chunk do.
+    /// Which hits gain something from a lamp.
     hits: Vec<u32>,
     /// What shadow rays meet.
-    met: Boundaries,
+    met: Obstacles,
     /// The hits that send rays on.
     senders: Box<Senders>,
     /// What camera rays carry.
@@ -163,16 +161,11 @@ impl Task for Glow<'_> {
         let n = self.paths.len();
         let Lighting { color, ambient, .. } = Lighting::of(self.terms.columns());
         let ambient = &ambient[..n];
+        let weight = self.paths.weights().columns();
         for (k, glow) in self.glow.columns_mut().into_iter().enumerate() {
-            let (glow, color) = (&mut glow[..n], &color[k][..n]);
+            let (glow, color, weight) = (&mut glow[..n], &color[k][..n], &weight[k][..n]);
             for i in 0..n {
-                glow[i] = color[i] * ambient[i];
-            }
-            if !self.paths.are_full() {
-                let weight = &self.paths.weights().column(k)[..n];
-                for i in 0..n {
-                    glow[i] *= weight[i];
-                }
+                glow[i] = color[i] * ambient[i] * weight[i];
             }
         }
     }
@@ -237,12 +230,22 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
     /// What the camera rays hit.
     pub fn first_hits(&self, rays: &Rays, census: &mut Census) -> Outcomes {
         let mut outcomes = Outcomes::default();
-        self.meet_first(rays, census, &mut outcomes);
+        self.meet_first((rays, true), census, &mut outcomes);
         outcomes
     }
 
-    /// As [`Whitted::first_hits`]; what was in `outcomes` before is forgotten.
-    pub fn meet_first(&self, rays: &Rays, census: &mut Census, outcomes: &mut Outcomes) {
+    /// As [`Whitted::first_hits`]; without asking them, if they are in a beam that [can't meet anything](Whitted::may_meet).
+    /// What was in `outcomes` before is forgotten.
+    pub fn meet_first(
+        &self,
+        (rays, may_meet): (&Rays, bool),
+        census: &mut Census,
+        outcomes: &mut Outcomes,
+    ) {
+        if !may_meet {
+            outcomes.nothing(rays.len());
+            return census.miss(rays.len());
+        }
         census.timed(|t| &mut t.primary, || self.nearest(rays, outcomes));
         census.primary += rays.len() as u64;
         census.evaluations += sum(&outcomes.evaluations);
@@ -306,9 +309,8 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             lit: Lit::new(),
             looks: Looks::default(),
             glow: Columns::default(),
-            gains: Vec::new(),
             hits: Vec::new(),
-            met: Boundaries::default(),
+            met: Obstacles::default(),
             senders: Senders::new(),
             paths: Paths::default(),
             outcomes: Outcomes::default(),
@@ -380,22 +382,25 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         if !self.features.reflects {
             return Vec::new();
         }
-        let mut next = [(); 2].map(|()| Waves::new(depth + 1));
         let Memory {
             looks,
             senders,
             spare,
             ..
         } = &mut *studio.memory;
+        let mut next = [(); 2].map(|()| Wave {
+            depth: depth + 1,
+            ..spare.pop().unwrap_or_else(Wave::new)
+        });
         senders.send_on(
             wave,
             (&self.palette, looks),
-            (&mut next, self.depth, spare),
+            (&mut next, self.depth),
             (studio.census, self.level),
         );
-        let [mut waves, refracted] = next.map(|waves| waves.waves);
-        waves.extend(refracted);
-        waves
+        let (next, unused) = next.into_iter().partition(|wave| !wave.rays.is_empty());
+        spare.extend::<Vec<Wave>>(unused);
+        next
     }
 
     /// Adds the sky where all rays of a wave hit nothing.
@@ -445,7 +450,6 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
         let Memory {
             lit,
             looks,
-            gains,
             hits,
             met,
             ..
@@ -455,14 +459,13 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             paths,
             outcomes,
         } = wave;
-        gains.resize_with(self.lamps.len(), Gains::default);
-        gains.iter_mut().for_each(Gains::clear);
         let terms = &looks.terms;
-        for first in (0..rays.len()).step_by(CHUNK) {
-            let numbers = first..rays.len().min(first + CHUNK);
+        for first in (0..rays.len()).step_by(BATCH) {
+            let numbers = first..rays.len().min(first + BATCH);
             if !looks.is_any_lit(numbers.clone()) {
                 continue;
             }
+            let samples = &paths.sample[numbers.clone()];
             let face = Face {
                 lit,
                 rays,
@@ -470,7 +473,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                 numbers,
             };
             run_at(self.level, face);
-            for (lamp, gains) in self.lamps.iter().zip(&mut *gains) {
+            for lamp in &self.lamps {
                 let shine = Shine {
                     lit,
                     lamp,
@@ -479,10 +482,9 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                     has_halfway: self.features.halfway,
                 };
                 run_at(self.level, shine);
-                let radiance = lamp.radiance();
                 let gain = Gain {
                     lit,
-                    radiance,
+                    radiance: lamp.radiance(),
                     terms,
                     weight: paths.weights(),
                 };
@@ -491,51 +493,18 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
                 if hits.is_empty() {
                     continue;
                 }
-                // What is walked, or does not fit into a chunk, is collected first.
-                if self.features.tinted_shadows || rays.len() > CHUNK {
-                    gains.take(lit, hits, paths, self.features.tinted_shadows);
-                    continue;
+                let shadowed = Shadowed {
+                    lit,
+                    hits,
+                    media: &paths.media,
+                };
+                let seen = (self.surfaces, &self.palette);
+                let level = (&mut *studio.census, self.level);
+                for hit in darken(seen, &self.features, (shadowed, met), level) {
+                    studio.light.unknown[samples[hit as usize] as usize] = true;
                 }
-                let light = (&mut *studio.light, &mut *studio.census);
-                self.add_lamp((lit, hits), paths, &mut gains.occlusions, light);
+                studio.light.add(samples, lit.gained(), self.level);
             }
         }
-        let collected = gains.iter_mut().filter(|gains| !gains.rays.is_empty());
-        for gains in collected {
-            let seen = (self.surfaces, &self.palette);
-            let asked = (&mut *gains, &mut *met);
-            for ray in settle(seen, &self.features, asked, (studio.census, self.level)) {
-                studio.light.unknown[gains.samples[ray as usize] as usize] = true;
-            }
-            studio
-                .light
-                .add(&gains.samples, gains.radiance.columns(), self.level);
-        }
-    }
-
-    /// Adds what a lamp sends to a wave that is one chunk, of which these hits gain something, unless something opaque is in the
-    /// way.
-    fn add_lamp(
-        &self,
-        (lit, hits): (&mut Lit, &[u32]),
-        paths: &Paths,
-        occlusions: &mut Occlusions,
-        (light, census): (&mut Received, &mut Census),
-    ) {
-        if self.features.opaque_shadows {
-            let (rays, gained) = lit.shadowed();
-            let shadowed = Shadowed {
-                rays: &rays,
-                numbers: hits,
-                gained,
-            };
-            let level = (census, self.level);
-            for ray in stop(self.surfaces, shadowed, occlusions, level) {
-                light.unknown[paths.sample[ray as usize] as usize] = true;
-            }
-        }
-        let (_, gained) = lit.shadowed();
-        let gained = gained.map(|channel| &*channel);
-        light.add(&paths.sample, gained, self.level);
     }
 }

@@ -7,10 +7,11 @@
 
 use super::RayColumns;
 use super::analytic::HalfSpace;
-use super::bundle::{Bundle, CAPACITY, fold, larger, lesser};
+use super::bundle::{Bundle, fold, larger, lesser};
 use super::hierarchy::{BRANCHES, Boxes, Eight};
 use super::vector::place;
 use crate::field::{Level, Task, run_at};
+use crate::num::BATCH;
 use glam::DVec3;
 
 /// What holds a number of rays: ranges of their origins and directions, and a cone about their mean.
@@ -61,7 +62,7 @@ impl Task for Ends<'_> {
     fn run(self) -> [DVec3; 2] {
         let b = self.0;
         let mut range = [DVec3::ZERO; 2];
-        let mut ends = [0.0; CAPACITY];
+        let mut ends = [0.0; BATCH];
         for axis in 0..3 {
             for i in 0..b.lanes() {
                 ends[i] = b.origin[axis][i] + b.direction[axis][i] * b.t_max[i];
@@ -107,7 +108,7 @@ impl Task for Distances<'_> {
     #[inline(always)]
     fn run(self) -> [f64; 2] {
         let b = self.bundle;
-        let mut squares = [0.0; CAPACITY];
+        let mut squares = [0.0; BATCH];
         let mut most = [0.0; 2];
         for (k, columns) in [&b.origin, &b.direction].into_iter().enumerate() {
             for i in 0..b.lanes() {

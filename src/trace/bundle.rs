@@ -13,20 +13,11 @@ use super::vector::place;
 use super::{RayColumns, Rays, Verdict};
 use crate::catalogue::Bounds;
 use crate::field::{Level, Task, run_at};
-use crate::num::{F64x32, Rows};
+use crate::num::{BATCH, Column, F64x32, ROOM, Rows};
 use std::mem;
-
-/// How many rays a bundle holds: a block of 16 x 16 pixels.
-pub(super) const CAPACITY: usize = 256;
 
 /// How many lanes work at once.
 pub(super) const WIDTH: usize = F64x32::WIDTH;
-
-/// The length of a column: a cache line more, so that columns do not share places of the cache: a hundredth of the time of s5b.
-const ROOM: usize = CAPACITY + 8;
-
-/// A number for each ray.
-pub(super) type Column = [f64; ROOM];
 
 /// Rays and what they found. Every column begins with a cache line.
 #[repr(C, align(64))]
@@ -47,24 +38,24 @@ pub(super) struct Bundle {
     /// The nearest hits; infinitely far where there is none.
     pub t: Column,
     error: Column,
-    part: [u64; CAPACITY],
+    part: [u64; BATCH],
     unknown: Column,
     /// Steps taken.
-    pub steps: [u32; CAPACITY],
+    pub steps: [u32; BATCH],
     /// Evaluations of fields.
-    pub evaluations: [u32; CAPACITY],
+    pub evaluations: [u32; BATCH],
     /// The gradients at their hits, not normalised; zero where they are still to be found.
     pub gradient: [Column; 3],
     /// The places of their hits; zero where there is none.
     pub point: [Column; 3],
     /// The parts that were hit; 0 where there is no hit.
-    pub hit: [u32; CAPACITY],
+    pub hit: [u32; BATCH],
     /// Where rays enter a box.
     pub enter: Column,
     /// Where they leave it; below the entry for those that miss it.
     pub leave: Column,
     /// Whether they meet it, or what else was asked last.
-    pub meets: [u8; CAPACITY],
+    pub meets: [u8; BATCH],
     /// How many rays there are.
     pub count: usize,
     /// Whether the reciprocals of the directions are there.
@@ -90,23 +81,23 @@ impl Bundle {
             spread: column,
             t: column,
             error: column,
-            part: [0; CAPACITY],
+            part: [0; BATCH],
             unknown: column,
-            steps: [0; CAPACITY],
-            evaluations: [0; CAPACITY],
+            steps: [0; BATCH],
+            evaluations: [0; BATCH],
             gradient: [column; 3],
             point: [column; 3],
-            hit: [0; CAPACITY],
+            hit: [0; BATCH],
             enter: column,
             leave: column,
-            meets: [0; CAPACITY],
+            meets: [0; BATCH],
             is_inverted: false,
             is_marked: true,
             winners: Vec::new(),
         })
     }
 
-    /// Takes the rays with these numbers, from 1 to [`CAPACITY`] of them, in order, and forgets what was there.
+    /// Takes the rays with these numbers, from 1 to [`BATCH`] of them, in order, and forgets what was there.
     pub fn fill(&mut self, rays: &RayColumns, numbers: &[u32]) {
         self.count = numbers.len();
         let n = self.lanes();
@@ -149,7 +140,7 @@ impl Bundle {
     /// How many lanes are in use: the rays, rounded up to whole packets.
     #[inline(always)]
     pub fn lanes(&self) -> usize {
-        self.count.next_multiple_of(WIDTH).min(CAPACITY)
+        self.count.next_multiple_of(WIDTH).min(BATCH)
     }
 
     fn columns_mut(&mut self) -> [&mut Column; Rays::COLUMNS] {
@@ -205,12 +196,12 @@ impl Bundle {
 
     /// Draws the conclusions of all rays: verdicts, with distances in `enter`, errors in `leave`, places in `point`, parts in
     /// `hit`, and normals in `gradient`, zero where they are still to be found; then the ray counts as one that meets something.
-    pub fn conclude(&mut self, level: Level) -> [Verdict; CAPACITY] {
+    pub fn conclude(&mut self, level: Level) -> [Verdict; BATCH] {
         run_at(level, Conclude(self))
     }
 
     /// The verdicts on rays that are content with any hit.
-    pub fn blocked(&self, level: Level) -> [Verdict; CAPACITY] {
+    pub fn blocked(&self, level: Level) -> [Verdict; BATCH] {
         run_at(level, Blocked(self))
     }
 
@@ -258,7 +249,7 @@ impl Choice {
         let mut places = [0; WIDTH];
         for lane in 0..WIDTH {
             let ray = rays[if lane < rays.len() { lane } else { 0 }];
-            places[lane] = ray as usize % CAPACITY;
+            places[lane] = ray as usize % BATCH;
         }
         let first = places[0];
         let mut others = 0;
@@ -268,7 +259,7 @@ impl Choice {
         let are_neighbours = others == 0;
         Self {
             places,
-            first: are_neighbours.then_some(first.min(CAPACITY - WIDTH)),
+            first: are_neighbours.then_some(first.min(BATCH - WIDTH)),
         }
     }
 
@@ -291,7 +282,7 @@ impl Choice {
             return lanes;
         }
         for lane in 0..WIDTH {
-            lanes[lane] = column[self.places[lane] % CAPACITY];
+            lanes[lane] = column[self.places[lane] % BATCH];
         }
         lanes
     }
@@ -352,12 +343,12 @@ pub(super) fn fold(numbers: &[f64], first: f64, join: impl Fn(f64, f64) -> f64) 
 struct Conclude<'a>(&'a mut Bundle);
 
 impl Task for Conclude<'_> {
-    type Output = [Verdict; CAPACITY];
+    type Output = [Verdict; BATCH];
 
     #[inline(always)]
-    fn run(self) -> [Verdict; CAPACITY] {
+    fn run(self) -> [Verdict; BATCH] {
         let b = self.0;
-        let mut verdicts = [Verdict::Miss; CAPACITY];
+        let mut verdicts = [Verdict::Miss; BATCH];
         for i in 0..b.lanes() {
             let best = Crossing {
                 t: b.t[i],
@@ -373,7 +364,7 @@ impl Task for Conclude<'_> {
             b.meets[i] = u8::from(is_hit);
         }
         for first in (0..b.lanes()).step_by(WIDTH) {
-            let first = first.min(CAPACITY - WIDTH);
+            let first = first.min(BATCH - WIDTH);
             // Closed forms leave no gradients.
             let mut is_any = false;
             for i in first..first + WIDTH {
@@ -430,7 +421,7 @@ impl<F: ClosedForm> Task for Normals<'_, F> {
         let b = self.bundle;
         let number = u64::from(self.number);
         for first in (0..b.lanes()).step_by(WIDTH) {
-            let first = first.min(CAPACITY - WIDTH);
+            let first = first.min(BATCH - WIDTH);
             let mut is_any = false;
             for i in first..first + WIDTH {
                 is_any |= b.part[i] == number;
@@ -455,11 +446,11 @@ impl<F: ClosedForm> Task for Normals<'_, F> {
 struct Blocked<'a>(&'a Bundle);
 
 impl Task for Blocked<'_> {
-    type Output = [Verdict; CAPACITY];
+    type Output = [Verdict; BATCH];
 
     #[inline(always)]
-    fn run(self) -> [Verdict; CAPACITY] {
-        let mut verdicts = [Verdict::Miss; CAPACITY];
+    fn run(self) -> [Verdict; BATCH] {
+        let mut verdicts = [Verdict::Miss; BATCH];
         for i in 0..self.0.lanes() {
             let best = Crossing {
                 t: self.0.t[i],
@@ -484,9 +475,9 @@ impl Task for Clip<'_> {
     #[inline(always)]
     fn run(self) {
         let b = self.bundle;
-        b.meets = [0; CAPACITY];
+        b.meets = [0; BATCH];
         for k in ones(self.packets) {
-            let first = (k * WIDTH).min(CAPACITY - WIDTH);
+            let first = (k * WIDTH).min(BATCH - WIDTH);
             for i in first..first + WIDTH {
                 let (mut enter, mut leave) = (0.0f64, b.limit[i]);
                 for axis in 0..3 {
@@ -535,7 +526,7 @@ impl<F: ClosedForm> Task for Enter<'_, F> {
     fn run(mut self) -> bool {
         let mut is_new = false;
         for k in ones(self.packets) {
-            let first = (k * WIDTH).min(CAPACITY - WIDTH);
+            let first = (k * WIDTH).min(BATCH - WIDTH);
             let mut is_met = false;
             for i in first..first + WIDTH {
                 let (o, d) = (

@@ -17,13 +17,14 @@
 
 use super::analytic::Ball;
 use super::bits::bits;
-use super::bundle::{Bundle, CAPACITY, WIDTH, fold, larger};
+use super::bundle::{Bundle, WIDTH, fold, larger};
 use super::vector::place;
 use crate::field::Task;
+use crate::num::BATCH;
 use glam::DVec3;
 
 /// How many packets a bundle has.
-pub(super) const PACKETS: usize = CAPACITY / WIDTH;
+pub(super) const PACKETS: usize = BATCH / WIDTH;
 
 /// A number for each of them.
 type Each = [f64; PACKETS];
@@ -67,7 +68,7 @@ impl Task for Gather<'_> {
     fn run(self) {
         let (cones, b) = (self.cones, self.bundle);
         for (k, first) in (0..b.lanes()).step_by(WIDTH).enumerate() {
-            let first = first.min(CAPACITY - WIDTH);
+            let first = first.min(BATCH - WIDTH);
             let last = (first + WIDTH).min(b.count) - 1;
             let mut most = [0.0; 2];
             for (most, (columns, means)) in most.iter_mut().zip([

@@ -54,7 +54,7 @@ impl Rays {
         [7, 8].map(|k| self.0.column(k))
     }
 
-    /// All columns up to a multiple of 32 rays, as [`Columns::lanes`].
+    /// All columns up to whole lanes, as [`Columns::lanes`].
     #[inline(always)]
     pub fn lanes(&self) -> [&[f64]; Self::COLUMNS] {
         self.0.lanes()
@@ -166,6 +166,18 @@ pub struct Outcomes {
     numbers: Columns<8>,
 }
 
+/// The distance, error, place and normal of [`Outcome::NOTHING`].
+const NOWHERE: [f64; 8] = {
+    let Outcome {
+        t,
+        error,
+        point: p,
+        normal: n,
+        ..
+    } = Outcome::NOTHING;
+    [t, error, p.x, p.y, p.z, n.x, n.y, n.z]
+};
+
 impl Outcomes {
     /// How many there are.
     pub fn len(&self) -> usize {
@@ -201,7 +213,7 @@ impl Outcomes {
         [5, 6, 7].map(|k| self.numbers.column(k))
     }
 
-    /// Distances, their errors, places and normals up to a multiple of 32 rays, as [`Columns::lanes`].
+    /// Distances, their errors, places and normals up to whole lanes, as [`Columns::lanes`].
     #[inline(always)]
     pub fn lanes(&self) -> [&[f64]; 8] {
         self.numbers.lanes()
@@ -219,9 +231,21 @@ impl Outcomes {
 
     /// Makes it what that many rays find that meet nothing.
     pub fn nothing(&mut self, count: usize) {
+        let Self {
+            verdict,
+            part,
+            steps,
+            evaluations,
+            ..
+        } = self;
+        verdict.clear();
+        for counts in [part, steps, evaluations] {
+            counts.clear();
+        }
         self.resize(count);
-        let all: Vec<u32> = (0..count as u32).collect();
-        self.miss(&all);
+        for (column, number) in self.numbers.columns_mut().into_iter().zip(NOWHERE) {
+            column.fill(number);
+        }
     }
 
     /// Says that these rays meet nothing.
@@ -231,9 +255,7 @@ impl Outcomes {
         rows.fill(&mut self.part, nothing.part);
         rows.fill(&mut self.steps, nothing.steps);
         rows.fill(&mut self.evaluations, nothing.evaluations);
-        let (p, n) = (nothing.point, nothing.normal);
-        let numbers = [nothing.t, nothing.error, p.x, p.y, p.z, n.x, n.y, n.z];
-        for (column, number) in self.numbers.columns_mut().into_iter().zip(numbers) {
+        for (column, number) in self.numbers.columns_mut().into_iter().zip(NOWHERE) {
             rows.fill(column, number);
         }
     }

@@ -21,7 +21,7 @@
 
 use super::analytic::{Ball, ClosedForm, U};
 use super::bits::ones;
-use super::bundle::{Bundle, CAPACITY, WIDTH, larger, lesser};
+use super::bundle::{Bundle, WIDTH, larger, lesser};
 use super::chord::Frame;
 use super::cones::Packets;
 use super::cut::{Found, Workshop, lines};
@@ -30,6 +30,7 @@ use super::quartic::{Quartics, state};
 use super::vector::place;
 use crate::catalogue::{Similarity, Torus};
 use crate::field::{Level, Task, run_at};
+use crate::num::BATCH;
 use glam::DVec3;
 
 /// Tubes that are thinner or thicker than this, in major radii, are not taken: the quartic knows little of them.
@@ -191,9 +192,9 @@ impl Task for Near<'_> {
     fn run(self) -> bool {
         let (b, ring) = (self.bundle, self.ring);
         let mut count = 0;
-        b.meets = [0; CAPACITY];
+        b.meets = [0; BATCH];
         for k in ones(self.packets) {
-            let first = (k * WIDTH).min(CAPACITY - WIDTH);
+            let first = (k * WIDTH).min(BATCH - WIDTH);
             let mut is_met = false;
             for i in first..first + WIDTH {
                 let (o, d) = (place(&b.origin, i), place(&b.direction, i));

@@ -6,11 +6,11 @@
 )]
 
 use super::beam::Beam;
-use super::bundle::{Bundle, CAPACITY, WIDTH};
+use super::bundle::{Bundle, WIDTH};
 use super::packet::{Lane, Rules};
 use super::part::Marched;
 use crate::field::{Closure, Task, Thicket, Thinned, run_at};
-use crate::num::{F32x32, F64x32, Lanes, Vec3};
+use crate::num::{BATCH, F32x32, F64x32, Lanes, Vec3};
 
 /// How many rays are looked at side by side.
 const LANES: usize = 8;
@@ -72,7 +72,7 @@ impl Task for Ends<'_> {
         let (mut from, mut to) = ([f64::INFINITY; LANES], [0.0; LANES]);
         for rays in self.rays.chunks(LANES) {
             for lane in 0..LANES {
-                let ray = rays[if lane < rays.len() { lane } else { 0 }] as usize % CAPACITY;
+                let ray = rays[if lane < rays.len() { lane } else { 0 }] as usize % BATCH;
                 let (enter, leave) = (self.bundle.enter[ray], self.bundle.leave[ray]);
                 from[lane] = if enter < from[lane] {
                     enter

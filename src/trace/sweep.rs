@@ -6,7 +6,7 @@
 
 use super::analytic::{Ball, ClosedForm, Crossing};
 use super::beam::Beam;
-use super::bundle::{Bundle, CAPACITY, Enter, WIDTH};
+use super::bundle::{Bundle, Enter, WIDTH};
 use super::cones::{ALL, Cones, Follow, Gather, Meeting, Packets};
 use super::cut::{Cut, Workshop};
 use super::descent::{Descent, Step};
@@ -22,6 +22,7 @@ use super::world::World;
 use super::{RayColumns, Verdict};
 use crate::catalogue::Bounds;
 use crate::field::{Thinned, run_at};
+use crate::num::BATCH;
 use glam::DVec3;
 use std::cell::Cell;
 use std::ops::Range;
@@ -42,7 +43,7 @@ const THRONG: usize = 64;
 const TOO_WIDE: f64 = 0.1;
 
 /// The packet in which lanes are put together that lag behind.
-const MIXED: usize = CAPACITY / WIDTH;
+const MIXED: usize = BATCH / WIDTH;
 
 /// Scouts go where values are larger than their errors by this factor.
 const SCOUTED: f64 = 4.0;
@@ -125,7 +126,7 @@ impl World {
         scratch.entries.clear();
         scratch.entries.extend(self.hierarchy.root());
         let known = 0..scratch.entries.len();
-        for numbers in numbers.chunks_mut(CAPACITY) {
+        for numbers in numbers.chunks_mut(BATCH) {
             self.sweep_bundle(rays, numbers, known.clone(), question, &mut scratch, answer);
         }
         SCRATCH.with(|cell| cell.set(Some(scratch)));

@@ -7,60 +7,11 @@
 
 use super::highlight::{GROUP, Group, groups, highlights};
 use super::lighting::{LIGHTING, Lighting};
-use super::lit::{CHUNK, Lit, put};
-use super::medium::Surroundings;
+use super::lit::{Lit, put};
 use super::phong::reflectance;
-use super::wave::Paths;
 use crate::field::Task;
-use crate::num::Columns;
-use crate::trace::{Occlusions, Rays};
+use crate::num::{BATCH, Columns};
 use glam::DVec3;
-
-/// What hits gain from one lamp, and the rays that find out whether they do.
-#[derive(Clone, Debug, Default)]
-pub struct Gains {
-    /// The rays from the hits towards the lamp; each ends before it.
-    pub rays: Rays,
-    /// The media around their starts, where shadows are tinted.
-    pub media: Surroundings,
-    /// Which camera rays gain.
-    pub samples: Vec<u32>,
-    /// By how much, by channel.
-    pub radiance: Columns<3>,
-    /// What is in the way of the rays, once that was asked.
-    pub occlusions: Occlusions,
-}
-
-impl Gains {
-    /// Forgets all of them.
-    pub fn clear(&mut self) {
-        self.rays.clear();
-        self.media.clear();
-        self.samples.clear();
-        self.radiance.resize(0);
-    }
-
-    /// Adds the hits of a chunk with these numbers, which gain something, on these paths; with their media only if these count.
-    pub fn take(&mut self, lit: &mut Lit, hits: &[u32], paths: &Paths, with_media: bool) {
-        let first = lit.numbers.start;
-        let (rays, gained) = lit.shadowed();
-        self.rays.pick(rays, hits);
-        self.radiance.pick(gained.map(|channel| &*channel), hits);
-        let numbers = hits.iter().map(|hit| first + *hit as usize);
-        self.samples
-            .extend(numbers.clone().map(|number| paths.sample[number]));
-        if !with_media {
-            return;
-        }
-        if paths.media.are_empty() && self.media.are_empty() {
-            self.media = Surroundings::empty(self.samples.len());
-            return;
-        }
-        for number in numbers {
-            self.media.push(paths.media.at(number));
-        }
-    }
-}
 
 /// Finds what hits show of a lamp that shines on them.
 pub struct Gain<'a> {
@@ -92,7 +43,7 @@ impl Task for Gain<'_> {
         let [d, e, f] = self.weight.lanes();
         let columns = [a, b, c, d, e, f, diffuse, specular, shininess, blinn];
         for first in (0..some.len()).step_by(GROUP) {
-            let first = first.min(CHUNK - GROUP);
+            let first = first.min(BATCH - GROUP);
             let terms = groups(columns, some.start + first);
             gain(lit, self.radiance, terms, first);
         }

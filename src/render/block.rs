@@ -7,50 +7,31 @@ use crate::num::BATCH;
 /// what they find does not depend on how blocks are put together to tiles.
 pub(super) const BLOCK: u32 = 16;
 
-/// The same, as a length of arrays.
-const SIDE: usize = BLOCK as usize;
-
-/// How many pixels a whole block has.
-pub(super) const PIXELS: usize = SIDE * SIDE;
-
 // What a block needs is treated at once.
-const _: () = assert!(PIXELS == BATCH);
+const _: () = assert!((BLOCK * BLOCK) as usize == BATCH);
 
-/// The places in a block along Morton's curve: each run of 64 is a square of 8 x 8, so that what is traced together lies
-/// together.
-const ORDER: [[u8; 2]; PIXELS] = {
-    let mut order = [[0; 2]; PIXELS];
-    let mut code = 0;
-    while code < order.len() {
-        let mut bit = 0;
-        while bit < BLOCK.ilog2() {
-            order[code][0] |= ((code >> (2 * bit) & 1) << bit) as u8;
-            order[code][1] |= ((code >> (2 * bit + 1) & 1) << bit) as u8;
-            bit += 1;
-        }
-        code += 1;
-    }
-    order
-};
+/// The side of the squares in it, in pixels: they follow each other, so that the rays of a packet lie close together.
+const SQUARE: u32 = 8;
 
-/// For each row of a block where its pixels are in that order, from left to right.
-const ROWS: [[u8; SIDE]; SIDE] = {
-    let mut rows = [[0; SIDE]; SIDE];
-    let mut code = 0;
-    while code < ORDER.len() {
-        let [column, row] = ORDER[code];
-        rows[row as usize][column as usize] = code as u8;
-        code += 1;
-    }
-    rows
-};
+/// Neighbours in a row that follow each other.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Run {
+    /// The column and row of the first.
+    pub first: [u32; 2],
+    /// How many there are; at most [`Run::LONGEST`].
+    pub pixels: usize,
+}
+
+impl Run {
+    /// So many there mostly are.
+    pub const LONGEST: usize = SQUARE as usize;
+}
 
 /// The pixels of a square, whose rays are traced together.
 #[derive(Default)]
 pub(super) struct Block {
+    runs: Vec<Run>,
     pixels: Vec<[u32; 2]>,
-    /// Whether there are all of them.
-    is_whole: bool,
 }
 
 impl Block {
@@ -63,53 +44,54 @@ impl Block {
 
     /// As [`Block::of`], in the same memory.
     pub fn move_to(&mut self, area: &Area) {
-        let [left, top] = area.corner;
-        let places = ORDER.iter();
+        self.runs.clear();
         self.pixels.clear();
-        self.pixels
-            .extend(places.map(|[i, j]| [left + u32::from(*i), top + u32::from(*j)]));
-        self.is_whole = area.size() == [BLOCK; 2];
-        if !self.is_whole {
-            self.pixels.retain(|pixel| area.has(*pixel));
+        for square in area.squares(SQUARE) {
+            let [left, right] = [square.corner[0], square.end[0]];
+            for row in square.corner[1]..square.end[1] {
+                self.runs.push(Run {
+                    first: [left, row],
+                    pixels: (right - left) as usize,
+                });
+                self.pixels
+                    .extend((left..right).map(|column| [column, row]));
+            }
         }
     }
 
-    /// Its pixels, columns and rows, in the order in which they are traced.
+    /// Its pixels, columns and rows, in the order in which they are traced: square by square, and in these row by row.
     pub fn pixels(&self) -> &[[u32; 2]] {
         &self.pixels
     }
 
-    /// Its rows, if it is a whole square: where each begins, and where its pixels are among all of them, from left to right.
-    pub fn rows(&self) -> Option<impl Iterator<Item = ([u32; 2], &'static [u8; SIDE])>> {
-        let [left, top] = *self.pixels.first()?;
-        let rows = (top..).zip(&ROWS);
-        let rows = rows.map(move |(row, places)| ([left, row], places));
-        self.is_whole.then_some(rows)
+    /// The same pixels as runs.
+    pub fn runs(&self) -> &[Run] {
+        &self.runs
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::HashSet;
 
     #[test]
-    fn rows_are_those_of_the_pixels() {
-        let mut area = Area {
-            corner: [32, 48],
-            end: [48, 64],
-        };
-        let mut block = Block::of(&area);
-        let mut seen = 0;
-        for ([left, row], places) in block.rows().into_iter().flatten() {
-            for (column, place) in (left..).zip(places) {
-                assert_eq!(block.pixels()[usize::from(*place)], [column, row]);
-                seen += 1;
+    fn runs_are_those_of_the_pixels() {
+        for end in [[48, 64], [47, 64], [33, 61], [40, 49]] {
+            let corner = [32, 48];
+            let area = Area { corner, end };
+            let block = Block::of(&area);
+            let mut pixels = block.pixels().iter();
+            for run in block.runs() {
+                let [left, row] = run.first;
+                for column in left..left + run.pixels as u32 {
+                    assert_eq!(pixels.next(), Some(&[column, row]));
+                }
             }
+            assert_eq!(pixels.next(), None);
+            let distinct: HashSet<_> = block.pixels().iter().collect();
+            assert_eq!(distinct.len(), area.pixels());
+            assert!(block.pixels().iter().all(|pixel| area.has(*pixel)));
         }
-        assert_eq!((seen, block.pixels().len()), (256, 256));
-        area.end[0] = 47;
-        block.move_to(&area);
-        assert!(block.pixels().len() == 15 * 16 && block.rows().is_none());
-        assert!(Block::default().rows().is_none());
     }
 }

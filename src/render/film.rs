@@ -2,7 +2,7 @@
 
 use super::Channel;
 use super::area::Area;
-use super::block::{Block, PIXELS};
+use super::block::{Block, Run};
 
 /// One channel of a film.
 #[derive(Clone, Debug, PartialEq)]
@@ -135,25 +135,20 @@ impl Patch<'_> {
     /// # Panics
     /// If a pixel is not on the patch, or a column has no number for it.
     pub fn record<const N: usize>(&mut self, k: usize, block: &Block, numbers: [&[f32]; N]) {
-        let Some(rows) = block.rows() else {
-            for (i, pixel) in block.pixels().iter().enumerate() {
-                let piece = self.piece::<N>(k, *pixel, 1);
-                piece.copy_from_slice(&numbers.map(|column| column[i]));
-            }
-            return;
-        };
-        // Places are below their length: none is checked.
-        let numbers: [&[f32; PIXELS]; N] = numbers.map(|column| {
-            let whole = column.first_chunk();
-            whole.expect("there is a number for each pixel")
-        });
-        for (first, places) in rows {
-            let row = self.piece::<N>(k, first, places.len());
-            for (pixel, place) in row.as_chunks_mut::<N>().0.iter_mut().zip(places) {
-                for (number, column) in pixel.iter_mut().zip(numbers) {
-                    *number = column[usize::from(*place)];
+        let mut from = 0;
+        for Run { first, pixels } in block.runs() {
+            let to = from + pixels;
+            let row = self.piece::<N>(k, *first, *pixels).as_chunks_mut().0;
+            // Of the usual length many are written at once.
+            match row.first_chunk_mut() {
+                Some(run) => interleave::<N, { Run::LONGEST }>(run, from, numbers),
+                None => {
+                    for (pixel, i) in row.iter_mut().zip(from..to) {
+                        *pixel = numbers.map(|column| column[i]);
+                    }
                 }
             }
+            from = to;
         }
     }
 
@@ -183,6 +178,24 @@ impl Patch<'_> {
     }
 }
 
+/// Writes a run of pixels, whose numbers begin at one of the columns' rows.
+#[inline(always)]
+fn interleave<const N: usize, const RUN: usize>(
+    run: &mut [[f32; N]; RUN],
+    first: usize,
+    numbers: [&[f32]; N],
+) {
+    let mut columns = [[0.0; RUN]; N];
+    for (column, numbers) in columns.iter_mut().zip(numbers) {
+        column.copy_from_slice(&numbers[first..first + RUN]);
+    }
+    for (i, pixel) in run.iter_mut().enumerate() {
+        for (number, column) in pixel.iter_mut().zip(&columns) {
+            *number = column[i];
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::block::BLOCK;
@@ -203,7 +216,7 @@ mod tests {
                     let number = |[i, j]: &[u32; 2]| (i + 100 * j) as f32 + 1.0;
                     let numbers: Vec<f32> = block.pixels().iter().map(number).collect();
                     let less: Vec<f32> = numbers.iter().map(|x| -x).collect();
-                    patch.record(0, &block, [&numbers, &vec![0.0; PIXELS], &less]);
+                    patch.record(0, &block, [&numbers, &vec![0.0; numbers.len()], &less]);
                     let [column, row] = area.corner;
                     patch.fill(1, &area, [(column + 100 * row) as f32 + 1.0]);
                 }

@@ -7,14 +7,17 @@
 //!
 //! The rules are those for second derivatives, with the slopes of [`Steep`]. They hold for kinks because the
 //! second derivative of such a field is a bounded function plus a measure of one sign, for which the product rule and the
-//! chain rule with smooth functions hold as well.
+//! chain rule with smooth functions hold as well. Of smooth fields more is known: quadratic forms between which the second
+//! derivatives lie, which tell directions apart.
 
+mod form;
 mod functions;
 #[cfg(test)]
 mod tests;
 
 use super::steep::{dot, length, norm, times};
 use super::{Interval, Number, Steep};
+use form::{Forms, Wave};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The range of a field over a convex region, its slopes, and its bends: its second derivatives along straight lines.
@@ -22,6 +25,10 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 pub struct Bent {
     steep: Steep,
     bend: Interval,
+    /// Between which forms the second derivatives lie; none where that is not known.
+    forms: Option<Forms>,
+    /// The field as a wave, if it is one.
+    wave: Option<Wave>,
 }
 
 const ZERO: Interval = Interval { lo: 0.0, hi: 0.0 };
@@ -54,7 +61,7 @@ fn pull_down(range: Interval, bend: Interval) -> f64 {
 impl Bent {
     /// The coordinate number `index` over the interval.
     pub fn variable(range: Interval, index: usize) -> Self {
-        Self::new(Steep::variable(range, index), ZERO)
+        Self::new(Steep::variable(range, index), ZERO).with(Some(Forms::ZERO))
     }
 
     /// The range of the value, with the slopes.
@@ -76,7 +83,29 @@ impl Bent {
     fn new(steep: Steep, bend: Interval) -> Self {
         let is_constant = steep.slope() == 0.0;
         let bend = if is_constant { ZERO } else { bend };
-        Self { steep, bend }
+        Self {
+            steep,
+            bend,
+            forms: is_constant.then_some(Forms::ZERO),
+            wave: None,
+        }
+    }
+
+    /// With these forms, which may say more than the bends.
+    fn with(self, forms: Option<Forms>) -> Self {
+        if self.is_constant() {
+            return self;
+        }
+        let by_forms = forms.as_ref().map_or(Interval::ENTIRE, Forms::bend);
+        Self {
+            bend: common(self.bend, by_forms),
+            forms,
+            ..self
+        }
+    }
+
+    fn is_constant(&self) -> bool {
+        self.steep.slope() == 0.0
     }
 
     /// What may jump.
@@ -101,7 +130,19 @@ impl Bent {
         if steep.value() == Interval::ENTIRE {
             return Self::unknown(steep);
         }
-        Self::new(steep, second * self.squares() + first * self.bend)
+        let carried = self.forms.and_then(|forms| forms.times(first));
+        let own = Forms::of_squares(&self.steep, second);
+        let forms = carried.zip(own).and_then(|(a, b)| a.plus(b));
+        Self::new(steep, second * self.squares() + first * self.bend).with(forms)
+    }
+
+    /// A sine or a cosine, as [`Bent::smooth`].
+    fn wave(self, steep: Steep, first: Interval, second: Interval) -> Self {
+        let is_straight = self.forms.is_some_and(|forms| forms.are_zero());
+        Self {
+            wave: is_straight.then(|| Wave::of(&self.steep)),
+            ..self.smooth(steep, first, second)
+        }
     }
 
     /// A length that was evaluated as `steep`, of a vector q with unit vector e. Its second derivative is
@@ -139,14 +180,17 @@ fn crossed(a: &Steep, b: &Steep) -> Interval {
 impl Add for Bent {
     type Output = Self;
     fn add(self, o: Self) -> Self {
-        Self::new(self.steep + o.steep, self.bend + o.bend)
+        let forms = self.forms.zip(o.forms).and_then(|(a, b)| a.plus(b));
+        Self::new(self.steep + o.steep, self.bend + o.bend).with(forms)
     }
 }
 
 impl Sub for Bent {
     type Output = Self;
     fn sub(self, o: Self) -> Self {
-        Self::new(self.steep - o.steep, self.bend - o.bend)
+        let forms = self.forms.zip(o.forms);
+        let forms = forms.and_then(|(a, b)| a.plus(b.opposite()));
+        Self::new(self.steep - o.steep, self.bend - o.bend).with(forms)
     }
 }
 
@@ -156,7 +200,25 @@ impl Mul for Bent {
     /// (a b)'' = a b'' + b a'' + 2 a' b'.
     fn mul(self, o: Self) -> Self {
         let bends = self.value() * o.bend + o.value() * self.bend;
-        Self::new(self.steep * o.steep, bends + crossed(&self.steep, &o.steep))
+        let crossed = crossed(&self.steep, &o.steep);
+        let parts = [
+            o.forms.and_then(|forms| forms.times(self.value())),
+            self.forms.and_then(|forms| forms.times(o.value())),
+            Forms::crossed(&self.steep, &o.steep, crossed),
+        ];
+        let by_rule = parts.into_iter().reduce(|a, b| a?.plus(b?)).flatten();
+        let waves = self.wave.zip(o.wave);
+        let by_waves = waves.and_then(|(a, b)| a.product(b));
+        let forms = [by_rule, by_waves].into_iter().flatten();
+        let product = Self::new(self.steep * o.steep, bends + crossed);
+        Self {
+            wave: match [self.is_constant(), o.is_constant()] {
+                [false, true] => self.wave.map(|wave| wave.times(o.value())),
+                [true, false] => o.wave.map(|wave| wave.times(self.value())),
+                _ => None,
+            },
+            ..product.with(forms.reduce(Forms::closer))
+        }
     }
 }
 
@@ -171,8 +233,12 @@ impl Div for Bent {
             return Self::unknown(steep);
         }
         let rest = self.bend - steep.value() * o.bend - crossed(&steep, &o.steep);
-        let by_product = (self * o.reciprocal()).bend;
-        Self::new(steep, common(rest / divisor, by_product))
+        let product = self * o.reciprocal();
+        let quotient = Self::new(steep, common(rest / divisor, product.bend));
+        Self {
+            wave: product.wave,
+            ..quotient.with(product.forms)
+        }
     }
 }
 
@@ -182,6 +248,8 @@ impl Neg for Bent {
         Self {
             steep: -self.steep,
             bend: -self.bend,
+            forms: self.forms.map(Forms::opposite),
+            wave: self.wave,
         }
     }
 }

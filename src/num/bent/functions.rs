@@ -46,28 +46,30 @@ impl Number for Bent {
     /// The larger of two is bent upwards at its kinks, and else as one of the two.
     fn max(self, o: Self) -> Self {
         let steep = self.steep.max(o.steep);
-        let bend = match is_less(&self, &o) {
-            Some(true) => o.bend,
-            Some(false) => self.bend,
-            None => Interval {
-                lo: self.bend.lo.min(o.bend.lo),
-                hi: f64::INFINITY,
-            },
-        };
-        Self::new(steep, bend)
+        match is_less(&self, &o) {
+            Some(true) => Self { steep, ..o },
+            Some(false) => Self { steep, ..self },
+            None => {
+                let bend = Interval {
+                    lo: self.bend.lo.min(o.bend.lo),
+                    hi: f64::INFINITY,
+                };
+                Self::new(steep, bend)
+            }
+        }
     }
 
     fn abs(self) -> Self {
         let (steep, range) = (self.steep.abs(), self.value());
-        let bend = if range.lo >= 0.0 {
-            self.bend
-        } else if range.hi <= 0.0 {
-            -self.bend
-        } else {
-            Interval {
-                lo: self.bend.lo.min(-self.bend.hi),
-                hi: f64::INFINITY,
-            }
+        if range.lo >= 0.0 {
+            return Self { steep, ..self };
+        }
+        if range.hi <= 0.0 {
+            return Self { steep, ..-self };
+        }
+        let bend = Interval {
+            lo: self.bend.lo.min(-self.bend.hi),
+            hi: f64::INFINITY,
         };
         Self::new(steep, bend)
     }
@@ -86,12 +88,12 @@ impl Number for Bent {
 
     fn sin(self) -> Self {
         let (sine, cosine) = self.value().sin_cos();
-        self.smooth(self.steep.sin(), cosine, -sine)
+        self.wave(self.steep.sin(), cosine, -sine)
     }
 
     fn cos(self) -> Self {
         let (sine, cosine) = self.value().sin_cos();
-        self.smooth(self.steep.cos(), -sine, -cosine)
+        self.wave(self.steep.cos(), -sine, -cosine)
     }
 
     /// The gradient of the angle at the distance r is 1 / r long, its second derivatives are within 1 / r^2.

@@ -536,7 +536,11 @@ impl<F: ClosedForm> Task for Enter<'_, F> {
                 is_met |= self.form.may_meet(o, d);
             }
             if is_met {
-                is_new |= self.cross(first);
+                is_new |= if self.any {
+                    self.block(first)
+                } else {
+                    self.cross(first)
+                };
             }
         }
         is_new
@@ -568,7 +572,6 @@ impl<F: ClosedForm> Enter<'_, F> {
             b.part[i] = if is_taken { number } else { b.part[i] };
             let end = t + error;
             let end = if end < b.t_max[i] { end } else { b.t_max[i] };
-            let end = if self.any { -1.0 } else { end };
             b.limit[i] = if is_taken { end } else { b.limit[i] };
         }
         if b.is_marked {
@@ -579,12 +582,36 @@ impl<F: ClosedForm> Enter<'_, F> {
                 }
             }
         }
-        let mut sum = 0;
-        for lane in 0..WIDTH {
-            sum += taken[lane];
-        }
-        sum > 0
+        sum(&taken) > 0
     }
+
+    /// As [`Enter::cross`] for rays that are content with any hit: neither how far off it may be nor what it hits is asked.
+    #[inline(always)]
+    fn block(&mut self, first: usize) -> bool {
+        let b = &mut *self.bundle;
+        let mut taken = [0u64; WIDTH];
+        for lane in 0..WIDTH {
+            let i = first + lane;
+            let (t, _) = self
+                .form
+                .crossing(place(&b.origin, i), place(&b.direction, i));
+            let is_taken = (t <= b.limit[i]) & (t < f64::INFINITY);
+            taken[lane] = u64::from(is_taken);
+            b.t[i] = if is_taken { t } else { b.t[i] };
+            b.limit[i] = if is_taken { -1.0 } else { b.limit[i] };
+        }
+        sum(&taken) > 0
+    }
+}
+
+/// The sum of a packet's numbers.
+#[inline(always)]
+fn sum(numbers: &[u64; WIDTH]) -> u64 {
+    let mut sum = 0;
+    for lane in 0..WIDTH {
+        sum += numbers[lane];
+    }
+    sum
 }
 
 #[cfg(test)]

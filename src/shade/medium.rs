@@ -6,6 +6,7 @@
 
 use super::Surface;
 use glam::DVec3;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// The index of refraction of empty space.
@@ -175,6 +176,28 @@ impl Crossings {
         });
         &boundary.crossing
     }
+
+    /// Calls `each` with the neighbours among some rays that go through a surface in the same way, with what they are in and how
+    /// they cross: of all rays the media around them, the parts that they hit, and whether they come from the outside.
+    pub fn each(
+        &mut self,
+        rays: Range<usize>,
+        surface: &Surface,
+        (media, parts, is_outside): (&Surroundings, &[u32], impl Fn(usize) -> bool),
+        mut each: impl FnMut(Range<usize>, &Media, &Crossing),
+    ) {
+        let mut first = rays.start;
+        while first < rays.end {
+            let (media, end) = media.run(first);
+            let (part, is_entering) = (parts[first], is_outside(first));
+            let mut others = first + 1..rays.end.min(end);
+            let next = others.find(|i| (parts[*i] != part) | (is_outside(*i) != is_entering));
+            let same = first..next.unwrap_or(others.end);
+            first = same.end;
+            let crossing = self.across(media, Medium::new(part, surface), is_entering);
+            each(same, media, crossing);
+        }
+    }
 }
 
 /// The media around rays, side by side: neighbours that share theirs store them once, and nothing is stored as long as all rays
@@ -208,8 +231,14 @@ impl Surroundings {
 
     /// The media around ray number `i`.
     pub fn at(&self, i: usize) -> &Media {
+        self.run(i).0
+    }
+
+    /// The media around ray number `i`, and the number of the first ray behind it that is known to be in others, if any is.
+    fn run(&self, i: usize) -> (&Media, usize) {
         let run = self.runs.partition_point(|(_, end)| *end <= i);
-        self.runs.get(run).map_or(&Media::EMPTY, |(media, _)| media)
+        let run = self.runs.get(run).map(|(media, end)| (media, *end));
+        run.unwrap_or((&Media::EMPTY, usize::MAX))
     }
 
     /// Adds those of the rays of others with these numbers.

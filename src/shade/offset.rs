@@ -8,7 +8,6 @@
 //! `p` may lie beyond it. Lengths scale with the scene, so scaling it by a power of two keeps the bits.
 
 use crate::trace::vector::select;
-use crate::trace::{Footprint, Outcome, Ray};
 use glam::DVec3;
 
 /// Half the distance between 1 and the next number: the largest relative error of rounding.
@@ -37,20 +36,6 @@ pub fn facing(outward: DVec3, incident: DVec3) -> DVec3 {
     select(is_outside(outward, incident), outward, -outward)
 }
 
-/// The ray that leaves `hit` along `direction`, of length 1, on the side of `side`; `footprint` is that of the ray that
-/// arrived, and its width at the hit goes on growing.
-pub fn leaving(hit: &Outcome, side: DVec3, direction: DVec3, footprint: Footprint) -> Ray {
-    Ray {
-        origin: start(hit.point, hit.t, hit.error, side),
-        direction,
-        t_max: f64::INFINITY,
-        footprint: Footprint {
-            at_origin: footprint.at(hit.t),
-            spread: footprint.spread,
-        },
-    }
-}
-
 /// How far a shadow ray to a light at `distance` is followed: what stands at the light or behind it casts no shadow.
 #[inline(always)]
 pub fn before(distance: f64) -> f64 {
@@ -60,25 +45,6 @@ pub fn before(distance: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::Verdict;
-
-    fn hit(point: DVec3, t: f64, error: f64) -> Outcome {
-        Outcome {
-            verdict: Verdict::Hit,
-            t,
-            error,
-            point,
-            normal: DVec3::Y,
-            part: 0,
-            steps: 1,
-            evaluations: 1,
-        }
-    }
-
-    fn start(hit: &Outcome, side: DVec3) -> DVec3 {
-        super::start(hit.point, hit.t, hit.error, side)
-    }
-
     #[test]
     fn start_is_on_its_side_for_every_point_within_the_error() {
         let n = DVec3::new(1.0, 2.0, -2.0) / 3.0;
@@ -87,7 +53,7 @@ mod tests {
                 let error = 1e-6 * scale;
                 let p = DVec3::new(3.0, -5.0, 7.0) * scale;
                 let reported = p + n * (wrong * error);
-                let q = start(&hit(reported, 9.0 * scale, error), n);
+                let q = start(reported, 9.0 * scale, error, n);
                 let above = (q - p).dot(n);
                 assert!(above > 0.0 && above < 4.0 * error);
             }
@@ -97,28 +63,18 @@ mod tests {
     #[test]
     fn exact_hits_are_displaced_by_rounding_alone() {
         let p = DVec3::new(0.0, 0.0, 0.0);
-        let q = start(&hit(p, 2.0, 0.0), DVec3::Y);
+        let q = start(p, 2.0, 0.0, DVec3::Y);
         assert!(q.y > 0.0 && q.y <= 8.0 * f64::EPSILON);
     }
 
     #[test]
     fn scaling_by_a_power_of_two_keeps_the_bits() {
         let p = DVec3::new(0.3, -1.7, 2.9);
-        let one = start(&hit(p, 4.1, 1e-9), DVec3::Y);
+        let one = start(p, 4.1, 1e-9, DVec3::Y);
         for k in [-40, 40] {
             let s = 2f64.powi(k);
-            assert_eq!(start(&hit(p * s, 4.1 * s, 1e-9 * s), DVec3::Y), one * s);
+            assert_eq!(start(p * s, 4.1 * s, 1e-9 * s, DVec3::Y), one * s);
         }
-    }
-
-    #[test]
-    fn footprint_goes_on_growing() {
-        let arrived = Footprint {
-            at_origin: 0.5,
-            spread: 0.25,
-        };
-        let ray = leaving(&hit(DVec3::ZERO, 2.0, 0.0), DVec3::Y, DVec3::Y, arrived);
-        assert_eq!((ray.footprint.at(0.0), ray.footprint.at(2.0)), (1.0, 1.5));
     }
 
     #[test]

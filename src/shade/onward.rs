@@ -8,7 +8,7 @@
 use super::fresnel::share;
 use super::highlight::GROUP;
 use super::looks::Looks;
-use super::medium::{Crossing, Crossings, Media, Medium, Surroundings};
+use super::medium::{Crossings, Media, Surroundings};
 use super::offset;
 use super::palette::Palette;
 use super::reflect::reflected;
@@ -200,16 +200,19 @@ impl Senders {
         crossings: &mut Crossings,
     ) {
         let [normal, direction] = [wave.outcomes.normal(), wave.rays.direction()];
-        for (k, i) in (from..).zip(rays) {
-            let [outward, incident] =
-                [normal, direction].map(|c| DVec3::new(c[0][i], c[1][i], c[2][i]));
-            let is_outside = offset::is_outside(outward, incident);
-            let medium = Medium::new(wave.outcomes.part[i], surface);
-            let Crossing { n1, n2, beyond } =
-                crossings.across(wave.paths.media.at(i), medium, is_outside);
-            (self.indices[0][k], self.indices[1][k]) = (*n1, *n2);
-            self.beyond.push(beyond);
-        }
+        let at = |columns: [&[f64]; 3], i: usize| DVec3::from_array(columns.map(|c| c[i]));
+        let is_outside = |i| offset::is_outside(at(normal, i), at(direction, i));
+        let asked = (&wave.paths.media, &wave.outcomes.part[..], is_outside);
+        let mut from = from;
+        let [before, behind] = &mut self.indices;
+        let beyond = &mut self.beyond;
+        crossings.each(rays, surface, asked, |some, _, crossing| {
+            let to = from + some.len();
+            before[from..to].fill(crossing.n1);
+            behind[from..to].fill(crossing.n2);
+            beyond.push_all(&crossing.beyond, some.len());
+            from = to;
+        });
     }
 
     /// Takes what is known of the rays and their hits.

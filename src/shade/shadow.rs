@@ -4,16 +4,23 @@
 //! tinted shadows, they walk along the straight ray from one boundary to the next instead, and keep at each of them the
 //! share that its material passes, and between them what the medium does not absorb.
 
+#![allow(
+    clippy::needless_range_loop,
+    reason = "lanes run through many arrays side by side"
+)]
+
 use super::attenuation::absorbed;
 use super::census::sum;
-use super::highlight::GROUP;
-use super::lit::Lit;
+use super::highlight::{GROUP, groups};
+use super::lit::{Lit, put};
 use super::looks::Looks;
-use super::medium::{Crossings, Medium, Surroundings};
+use super::medium::{Crossings, Surroundings};
 use super::palette::Palette;
-use super::{Census, Features, Surface, Surfaces, offset};
+use super::{Census, Features, Surfaces, offset};
 use crate::field::{Level, Task, run_at};
-use crate::trace::{Occlusions, Outcome, Outcomes, Ray, Rays, Verdict, Visibility, count};
+use crate::num::{BATCH, Column, ROOM};
+use crate::trace::vector::place;
+use crate::trace::{Footprint, Occlusions, Outcomes, RayColumns, Rays, Verdict, Visibility, count};
 use glam::DVec3;
 
 /// How many boundaries a shadow ray may cross before it is given up as unknown, and taken as blocked.
@@ -46,11 +53,23 @@ pub struct Shadowed<'a> {
 }
 
 /// What shadow rays meet; memory that is used again for others.
-#[derive(Default)]
 pub struct Obstacles {
     occlusions: Occlusions,
     outcomes: Outcomes,
     looks: Looks,
+    beyond: Box<Beyond>,
+}
+
+impl Obstacles {
+    /// Nothing yet.
+    pub fn new() -> Self {
+        Self {
+            occlusions: Occlusions::default(),
+            outcomes: Outcomes::default(),
+            looks: Looks::default(),
+            beyond: Beyond::new(),
+        }
+    }
 }
 
 /// Takes from hits what does not reach them; gives those of which the tracer could not tell. Where it could not tell whether
@@ -62,7 +81,7 @@ pub fn darken<S: Surfaces + ?Sized>(
     (census, level): (&mut Census, Level),
 ) -> Vec<u32> {
     if features.tinted_shadows {
-        weaken(seen, shadowed, met, census)
+        weaken(seen, shadowed, met, (census, level))
     } else if features.opaque_shadows {
         stop(seen.0, shadowed, &mut met.occlusions, (census, level))
     } else {
@@ -131,7 +150,7 @@ fn weaken<S: Surfaces + ?Sized>(
     seen: (&S, &Palette),
     Shadowed { lit, hits, media }: Shadowed,
     met: &mut Obstacles,
-    census: &mut Census,
+    (census, level): (&mut Census, Level),
 ) -> Vec<u32> {
     let mut walkers = Walkers::default();
     walkers.rays.pick(lit.rays(), hits);
@@ -145,7 +164,7 @@ fn weaken<S: Surfaces + ?Sized>(
         if walkers.rays.is_empty() {
             break;
         }
-        walkers = step(seen, &walkers, met, &mut passages, census);
+        walkers = step(seen, &walkers, met, &mut passages, (census, level));
     }
     for index in walkers.indices {
         census.unknown_secondary += 1;
@@ -172,13 +191,13 @@ struct Walkers {
     indices: Vec<u32>,
 }
 
-/// Takes every walker to its next boundary; those that arrive at the light or are blocked fall out.
+/// Takes every walker, no more than a batch, to its next boundary; those that arrive at the light or are blocked fall out.
 fn step<S: Surfaces + ?Sized>(
     (surfaces, palette): (&S, &Palette),
     walkers: &Walkers,
     met: &mut Obstacles,
     passages: &mut [Passage],
-    census: &mut Census,
+    (census, level): (&mut Census, Level),
 ) -> Walkers {
     let Walkers {
         rays,
@@ -186,7 +205,10 @@ fn step<S: Surfaces + ?Sized>(
         indices,
     } = walkers;
     let Obstacles {
-        outcomes, looks, ..
+        outcomes,
+        looks,
+        beyond,
+        ..
     } = met;
     census.shadow += rays.len() as u64;
     census.timed(
@@ -196,7 +218,16 @@ fn step<S: Surfaces + ?Sized>(
     census.evaluations += sum(&outcomes.evaluations);
     census.unknown_secondary += count(&outcomes.verdict, Verdict::Unknown) as u64;
     palette.look_through(surfaces, outcomes, looks);
-    let (mut further, mut crossings) = (Walkers::default(), Crossings::default());
+    let straight_on = StraightOn {
+        rays,
+        outcomes,
+        beyond,
+    };
+    run_at(level, straight_on);
+    let mut further = Walkers::default();
+    let (mut chosen, mut crossings) = (Vec::with_capacity(rays.len()), Crossings::default());
+    let t = outcomes.t();
+    let is_outside = |i: usize| beyond.is_outside[i] != 0;
     for (range, surface) in looks.runs(palette) {
         match surface {
             Some(surface) if surface.passes == 0.0 => {
@@ -205,11 +236,20 @@ fn step<S: Surfaces + ?Sized>(
                 }
             }
             Some(surface) => {
-                for i in range {
-                    let hit = &outcomes.at(i);
-                    let onward = (&mut *passages, &mut further, &mut crossings);
-                    pass(walkers, i, (surface, hit), onward);
-                }
+                let asked = (media, &outcomes.part[..], is_outside);
+                crossings.each(range, surface, asked, |some, media, crossing| {
+                    let (absorb, before) = (media.absorb(), chosen.len());
+                    for i in some {
+                        let passage = &mut passages[indices[i] as usize];
+                        passage.share *= absorbed(absorb, t[i]);
+                        passage.share *= surface.passes;
+                        if passage.share != DVec3::ZERO && beyond.end[i] > 0.0 {
+                            chosen.push(i as u32);
+                        }
+                    }
+                    let more = chosen.len() - before;
+                    further.media.push_all(&crossing.beyond, more);
+                });
             }
             None => {
                 for i in range {
@@ -217,53 +257,176 @@ fn step<S: Surfaces + ?Sized>(
                     passage.unknown |= outcomes.verdict[i] == Verdict::Unknown;
                     let media = media.at(i);
                     if !media.is_empty() {
-                        let end = outcomes.t()[i].min(rays.at(i).t_max);
+                        let end = t[i].min(rays.at(i).t_max);
                         passage.share *= absorbed(media.absorb(), end);
                     }
                 }
             }
         }
     }
+    further.rays.pick(beyond.rays(rays), &chosen);
+    let indices = chosen.iter().map(|i| indices[*i as usize]);
+    further.indices.extend(indices);
     further
 }
 
-/// Takes walker number `i` through a surface that it hit, if anything is left of the light behind it.
-fn pass(
-    walkers: &Walkers,
-    i: usize,
-    (surface, hit): (&Surface, &Outcome),
-    (passages, further, crossings): (&mut [Passage], &mut Walkers, &mut Crossings),
-) {
-    let Walkers {
-        rays,
-        media,
-        indices,
-    } = walkers;
-    let (ray, media, index) = (&rays.at(i), media.at(i), indices[i]);
-    let passage = &mut passages[index as usize];
-    passage.share *= absorbed(media.absorb(), hit.t);
-    passage.share *= surface.passes;
-    if passage.share == DVec3::ZERO {
-        return;
+/// The rests of rays behind what they hit. What hit nothing is there too, with numbers that mean nothing. Every column begins with
+/// a cache line.
+#[repr(C, align(64))]
+struct Beyond {
+    origin: [Column; 3],
+    end: Column,
+    /// How wide pixels are at the origins.
+    width: Column,
+    /// Whether the rays come to their hits from the outside: 0 or 1, as wide as the other lanes.
+    is_outside: [u64; ROOM],
+}
+
+impl Beyond {
+    /// No rays: large, so it lives in a box.
+    fn new() -> Box<Self> {
+        let column = [0.0; ROOM];
+        Box::new(Self {
+            origin: [column; 3],
+            end: column,
+            width: column,
+            is_outside: [0; ROOM],
+        })
     }
-    let next = straight_on(ray, hit);
-    if next.t_max > 0.0 {
-        let medium = Medium::new(hit.part, surface);
-        let is_entering = offset::is_outside(hit.normal, ray.direction);
-        further.rays.push(&next);
-        let crossing = crossings.across(media, medium, is_entering);
-        further.media.push(&crossing.beyond);
-        further.indices.push(index);
+
+    /// The rests of these rays.
+    fn rays<'a>(&'a self, rays: &'a Rays) -> RayColumns<'a> {
+        let [a, b, c] = &self.origin;
+        let [_, _, _, d, e, f, _, _, spread] = rays.columns();
+        [a, b, c, d, e, f, &self.end, &self.width, spread]
     }
 }
 
-/// The rest of a ray behind what it hit.
-fn straight_on(ray: &Ray, hit: &Outcome) -> Ray {
-    let far_side = -offset::facing(hit.normal, ray.direction);
-    let next = offset::leaving(hit, far_side, ray.direction, ray.footprint);
-    let advance = (next.origin - ray.origin).dot(ray.direction);
-    Ray {
-        t_max: ray.t_max - advance,
-        ..next
+/// Finds the rests of rays, straight on behind what they hit.
+struct StraightOn<'a> {
+    rays: &'a Rays,
+    outcomes: &'a Outcomes,
+    beyond: &'a mut Beyond,
+}
+
+impl Task for StraightOn<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let to = self.beyond;
+        let [a, b, c, d, e, f, t_max, width, spread] = self.rays.lanes();
+        let [t, error, g, h, k, l, m, n] = self.outcomes.lanes();
+        let columns = [
+            a, b, c, d, e, f, g, h, k, l, m, n, t, error, t_max, width, spread,
+        ];
+        for first in (0..self.rays.len()).step_by(GROUP) {
+            let first = first.min(BATCH - GROUP);
+            let [
+                a,
+                b,
+                c,
+                d,
+                e,
+                f,
+                g,
+                h,
+                k,
+                l,
+                m,
+                n,
+                t,
+                error,
+                t_max,
+                width,
+                spread,
+            ] = groups(columns, first);
+            let (mut start, mut end) = ([[0.0; GROUP]; 3], [0.0; GROUP]);
+            let (mut wide, mut outside) = ([0.0; GROUP], [0; GROUP]);
+            for i in 0..GROUP {
+                let (origin, direction) = (place(&[a, b, c], i), place(&[d, e, f], i));
+                let (point, normal) = (place(&[g, h, k], i), place(&[l, m, n], i));
+                let far_side = -offset::facing(normal, direction);
+                let next = offset::start(point, t[i], error[i], far_side);
+                for axis in 0..3 {
+                    start[axis][i] = next[axis];
+                }
+                end[i] = t_max[i] - (next - origin).dot(direction);
+                let footprint = Footprint {
+                    at_origin: width[i],
+                    spread: spread[i],
+                };
+                wide[i] = footprint.at(t[i]);
+                outside[i] = u64::from(offset::is_outside(normal, direction));
+            }
+            put(to.origin.each_mut(), first, start.each_ref());
+            put([&mut to.end, &mut to.width], first, [&end, &wide]);
+            to.is_outside[first..first + GROUP].copy_from_slice(&outside);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trace::{Outcome, Ray};
+
+    /// What a ray meets on a wall across the z axis, from either side.
+    fn on_wall(ray: Ray) -> Outcome {
+        let t = -ray.origin.z / ray.direction.z;
+        Outcome {
+            verdict: Verdict::Hit,
+            t,
+            error: 1e-12,
+            point: ray.origin + ray.direction * t,
+            normal: DVec3::Z,
+            ..Outcome::NOTHING
+        }
+    }
+
+    #[test]
+    fn rays_go_straight_on_behind_what_they_hit() {
+        let ray = |i: u32| {
+            let side = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
+            let aside = f64::from(i) / 50.0 - 0.7;
+            Ray {
+                origin: DVec3::new(1.0, aside, 2.0 * side),
+                direction: DVec3::new(0.1, -aside, -side).normalize(),
+                t_max: 5.0,
+                footprint: Footprint {
+                    at_origin: 0.5,
+                    spread: 0.25,
+                },
+            }
+        };
+        let rays: Rays = (0..70).map(ray).collect();
+        let outcomes: Outcomes = rays.iter().map(on_wall).collect();
+        let mut beyond = Beyond::new();
+        let task = StraightOn {
+            rays: &rays,
+            outcomes: &outcomes,
+            beyond: &mut beyond,
+        };
+        run_at(Level::best(), task);
+        let numbers: Vec<u32> = (0..70).collect();
+        let found = Rays::picked(beyond.rays(&rays), &numbers);
+        for (i, (before, after)) in rays.iter().zip(found.iter()).enumerate() {
+            let t = outcomes.t()[i];
+            let is_outside = before.origin.z > 0.0;
+            assert_eq!(beyond.is_outside[i], u64::from(is_outside));
+            // On the other side of the wall, within a few errors of it.
+            let behind = if is_outside {
+                -after.origin.z
+            } else {
+                after.origin.z
+            };
+            assert!(behind > 0.0 && behind < 4e-12, "{after:?}");
+            assert!((after.t_max - (5.0 - t)).abs() < 1e-11);
+            let end = after.origin + after.direction * after.t_max;
+            assert!(end.distance(before.origin + before.direction * 5.0) < 1e-11);
+            assert_eq!(after.direction, before.direction);
+            let width = after.footprint.at_origin - (0.5 + 0.25 * t);
+            assert!(width.abs() < 1e-12 && after.footprint.spread == 0.25);
+        }
     }
 }

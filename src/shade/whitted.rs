@@ -310,7 +310,7 @@ impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
             looks: Looks::default(),
             glow: Columns::default(),
             hits: Vec::new(),
-            met: Obstacles::default(),
+            met: Obstacles::new(),
             senders: Senders::new(),
             paths: Paths::default(),
             outcomes: Outcomes::default(),

@@ -6,7 +6,7 @@
 )]
 
 use super::RayColumns;
-use super::analytic::HalfSpace;
+use super::analytic::{HalfSpace, U};
 use super::bundle::{Bundle, fold, larger, lesser};
 use super::hierarchy::{BRANCHES, Boxes, Eight};
 use super::vector::place;
@@ -262,7 +262,8 @@ impl Beam {
         };
         let (height, size) = least(self.origins);
         let (rise, speed) = least(self.directions);
-        let is_above = height - half.offset > 1e-12 * (size + half.offset.abs());
+        // Room for five roundings, and no more: rays that leave the plane start as close to it.
+        let is_above = height - half.offset >= 5.0 * U * (size + half.offset.abs());
         !(is_above && rise > 1e-12 * speed)
     }
 
@@ -302,6 +303,7 @@ mod tests {
     use super::*;
     use crate::catalogue::Bounds;
     use crate::num::samples::random;
+    use crate::trace::analytic::ClosedForm;
     use crate::trace::hierarchy::clip;
     use crate::trace::{Footprint, Ray, Rays};
 
@@ -399,6 +401,49 @@ mod tests {
             }
         }
         assert!(entered > 300 && nearer > 300, "{entered} {nearer}");
+    }
+
+    /// However close to a plane rays start, and however flat they go. Those that leave one across an axis are told apart from it
+    /// within some roundings.
+    #[test]
+    fn a_plane_that_a_ray_crosses_its_beam_may_meet() {
+        let (mut crossed, mut passed) = (0, 0);
+        for seed in 0..4000u64 {
+            let x = |j: u64| 2.0 * random(seed * 31 + j) - 1.0;
+            let axis = [DVec3::X, DVec3::NEG_Y, DVec3::Z][seed as usize % 3];
+            let tilted = DVec3::new(x(1), x(2), x(3)).normalize();
+            let normal = if seed.is_multiple_of(2) { axis } else { tilted };
+            let offset = if seed.is_multiple_of(5) { 0.0 } else { x(4) };
+            let half = HalfSpace { normal, offset };
+            // Off the plane by some roundings, on the side to which they go or on the other.
+            let off = 64.0 * U * x(5);
+            let across = normal.any_orthonormal_pair();
+            let ray = |k: u64| {
+                let y = |j: u64| random(seed * 512 + k * 8 + j) - 0.5;
+                let aside = across.0 * y(0) + across.1 * y(1);
+                let steep = if seed.is_multiple_of(7) { 1e-3 } else { 1.0 };
+                Ray {
+                    origin: normal * (offset + off * (1.0 + y(2))) + aside,
+                    direction: (normal * steep + across.0 * y(3) + across.1 * y(4)).normalize(),
+                    t_max: f64::INFINITY,
+                    footprint: Footprint {
+                        at_origin: 0.0,
+                        spread: 1e-3,
+                    },
+                }
+            };
+            let rays: Vec<Ray> = (0..33).map(ray).collect();
+            let crosses = |ray: &Ray| half.crossing(ray.origin, ray.direction).0 < f64::INFINITY;
+            let crossing = rays.iter().filter(|ray| crosses(ray)).count();
+            let may_meet = beam(&rays).may_meet(&half);
+            assert!(may_meet || crossing == 0, "seed {seed}: {half:?}, {off:e}");
+            crossed += u32::from(crossing > 0);
+            if normal == axis && off > 24.0 * U * offset.abs() {
+                assert!(!may_meet, "seed {seed}: {half:?}, {off:e}");
+                passed += 1;
+            }
+        }
+        assert!(crossed > 500 && passed > 500, "{crossed} {passed}");
     }
 
     #[test]

@@ -158,7 +158,8 @@ impl World {
         } else {
             usize::MAX
         };
-        let is_down = self.meet(asked, limit, known.clone(), most, question, scratch);
+        let beams = (&beam, asked);
+        let is_down = self.meet(beams, limit, known.clone(), most, question, scratch);
         if !is_down || self.is_crowd(&beam, numbers.len(), &scratch.descent.met) {
             let half = divide(numbers, beam.divide(self.horizon, rays), &mut scratch.aside);
             if half > 0 && half < numbers.len() {
@@ -172,7 +173,7 @@ impl World {
                 return;
             }
             if !is_down {
-                self.meet(asked, limit, known, usize::MAX, question, scratch);
+                self.meet(beams, limit, known, usize::MAX, question, scratch);
             }
         }
         // What blocked rays of this sweep before is asked first.
@@ -219,11 +220,11 @@ impl World {
             || rays > WIDTH && candidates.iter().any(|(_, number)| is_too_wide(*number))
     }
 
-    /// Collects the parts that a beam may meet before `limit`, with where, below the `known` entries; stops where it meets more
-    /// than `most`. Gives whether it came to an end.
+    /// Collects the parts that a beam may meet before `limit`, with where, below the `known` entries, which are asked by the same
+    /// rays or by those from their ends back; stops where it meets more than `most`. Gives whether it came to an end.
     fn meet(
         &self,
-        beam: &Beam,
+        (rays, beam): (&Beam, &Beam),
         limit: f64,
         known: Range<usize>,
         most: usize,
@@ -243,7 +244,9 @@ impl World {
         if !descent.go(&step, nodes, most) {
             return false;
         }
-        descent.met.extend(self.endless.iter().map(|n| (0.0, *n)));
+        descent
+            .met
+            .extend(self.endless_met(rays).map(|number| (0.0, number)));
         let is_seen = |number: u32| (question.is_seen)(&self.parts[number as usize]);
         descent.met.retain(|(_, number)| is_seen(*number));
         true

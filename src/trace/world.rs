@@ -207,13 +207,16 @@ impl World {
             return true;
         }
         let hierarchy = &self.hierarchy;
-        self.endless
-            .iter()
-            .any(|number| match &self.parts[*number as usize].kind {
-                PartKind::HalfSpace(half) => beam.may_meet(half),
-                _ => true,
-            })
-            || run_at(self.level, Meets { hierarchy, beam })
+        self.endless_met(beam).next().is_some() || run_at(self.level, Meets { hierarchy, beam })
+    }
+
+    /// The parts without an end that one of the rays of a beam may meet.
+    pub(super) fn endless_met(&self, beam: &Beam) -> impl Iterator<Item = u32> {
+        let may_meet = |number: &u32| match &self.parts[*number as usize].kind {
+            PartKind::HalfSpace(half) => beam.may_meet(half),
+            _ => true,
+        };
+        self.endless.iter().copied().filter(may_meet)
     }
 
     /// Whether any opaque surface lies on each ray; parts whose shadow is tinted or none are passed over.

@@ -1,12 +1,12 @@
 //! What the surfaces of a scene look like: materials that are the same at all points are evaluated once, and patterns at many
 //! points at a time.
 
-use super::lighting::{place, row};
+use super::lighting::{LIGHTING, place, row};
 use super::looks::{Looks, NONE};
 use super::surface::{Property, Terms};
 use super::{Surface, Surfaces};
-use crate::field::{Level, Walked, compile_graph};
-use crate::num::{F64x32, Lanes, Number, Rows, Vec3};
+use crate::field::{Level, Task, Walked, compile_graph, run_at};
+use crate::num::{Columns, F64x32, Lanes, Number, Vec3};
 use crate::scene::{Graph, Material, Term};
 use crate::trace::{Outcomes, Verdict};
 use glam::DVec3;
@@ -41,6 +41,7 @@ struct Pattern {
 /// The materials of a scene.
 pub struct Palette {
     swatches: Vec<Swatch>,
+    level: Level,
     serial: u64,
 }
 
@@ -80,6 +81,7 @@ impl Palette {
         };
         Self {
             swatches: materials.iter().map(swatch).collect(),
+            level,
             serial: PALETTES.fetch_add(1, Ordering::Relaxed) + 1,
         }
     }
@@ -131,9 +133,7 @@ impl Palette {
             for (_, some) in same {
                 rays.extend(some.clone());
             }
-            for some in rays.chunks(WIDTH) {
-                self.paint(looks, number, outcomes, (some, lit));
-            }
+            self.paint(looks, number, outcomes, (&rays, lit));
         }
         looks.varied = varied;
     }
@@ -198,8 +198,8 @@ impl Palette {
         looks.numbers.resize(end, number);
     }
 
-    /// Gives these rays, at most [`WIDTH`] and in order, their surfaces, all of one material with patterns; with what lighting
-    /// reads of them only if they are lit.
+    /// Gives these rays, in order, their surfaces, all of one material with patterns; with what lighting reads of them only if
+    /// they are lit.
     fn paint(
         &self,
         looks: &mut Looks,
@@ -208,56 +208,126 @@ impl Palette {
         (rays, lit): (&[u32], bool),
     ) {
         let swatch = &self.swatches[number];
-        let rows = Rows::in_order(rays);
-        let axis = |column: &[f64]| {
-            // Lanes without a ray are at the first ray's place.
-            let mut places = [column[rays[0] as usize]; WIDTH];
-            rows.take(column, &mut places);
-            Lanes(places)
-        };
-        let [x, y, z] = outcomes.point();
-        let points = Vec3::new(axis(x), axis(y), axis(z));
-        let value = |pattern: &Pattern| {
-            let mut value = [Lanes([0.0; WIDTH]); 3];
-            (pattern.walk)(&points, &mut value[..pattern.outputs]);
-            if pattern.outputs == 1 {
-                // A pattern with one output gives a grey.
-                (value[1], value[2]) = (value[0], value[0]);
-            }
-            value
-        };
         if swatch.is_only_lit {
-            for pattern in &swatch.patterns {
+            let task = Strokes {
+                patterns: &swatch.patterns,
+                points: outcomes.point(),
+                rays,
+                terms: &mut looks.terms,
+            };
+            return run_at(self.level, task);
+        }
+        let mut easel = Easel::new();
+        for rays in rays.chunks(WIDTH) {
+            easel.place(outcomes.point(), rays);
+            let values = swatch.patterns.iter().map(|pattern| {
+                easel.look(pattern);
+                easel.value
+            });
+            let values: Vec<[F64x32; 3]> = values.collect();
+            for (lane, ray) in rays.iter().enumerate() {
+                let mut known = Known {
+                    values: values.iter(),
+                    lane,
+                };
+                let surface = Surface::of_terms(&swatch.material, &mut known);
+                if lit {
+                    let row = row(&surface);
+                    for (column, number) in looks.terms.columns_mut().into_iter().zip(row) {
+                        column[*ray as usize] = number;
+                    }
+                }
+                looks.numbers[*ray as usize] = looks.add(self, surface);
+            }
+        }
+    }
+}
+
+/// A place for some points, and for what a pattern is there.
+struct Easel {
+    points: Vec3<F64x32>,
+    value: [F64x32; 3],
+}
+
+impl Easel {
+    fn new() -> Self {
+        Self {
+            points: Vec3::splat([0.0; 3]),
+            value: [Lanes([0.0; WIDTH]); 3],
+        }
+    }
+
+    /// Takes the points of these rays, at most [`WIDTH`]; lanes without a ray are at the first ray's place.
+    #[inline(always)]
+    fn place(&mut self, points: [&[f64]; 3], rays: &[u32]) {
+        let Vec3 { x, y, z } = &mut self.points;
+        for (lanes, column) in [x, y, z].into_iter().zip(points) {
+            if let Some(first) = neighbours(rays) {
+                lanes.0.copy_from_slice(&column[first..first + WIDTH]);
+            } else {
+                for lane in 0..WIDTH {
+                    let ray = rays[if lane < rays.len() { lane } else { 0 }];
+                    lanes.0[lane] = column[ray as usize];
+                }
+            }
+        }
+    }
+
+    /// Finds what a pattern is at the points; one with one output gives a grey.
+    #[inline(always)]
+    fn look(&mut self, pattern: &Pattern) {
+        let value = &mut self.value;
+        (pattern.walk)(&self.points, &mut value[..pattern.outputs]);
+        if pattern.outputs == 1 {
+            (value[1], value[2]) = (value[0], value[0]);
+        }
+    }
+}
+
+/// Where rays begin that are [`WIDTH`] neighbours, given in order.
+#[inline(always)]
+fn neighbours(rays: &[u32]) -> Option<usize> {
+    let is_full = rays.len() == WIDTH && (rays[WIDTH - 1] - rays[0]) as usize == WIDTH - 1;
+    is_full.then(|| rays[0] as usize)
+}
+
+/// Writes terms that lighting reads and that differ from point to point.
+struct Strokes<'a> {
+    patterns: &'a [Pattern],
+    points: [&'a [f64]; 3],
+    rays: &'a [u32],
+    terms: &'a mut Columns<LIGHTING>,
+}
+
+impl Task for Strokes<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let mut easel = Easel::new();
+        let mut columns = self.terms.columns_mut();
+        for rays in self.rays.chunks(WIDTH) {
+            easel.place(self.points, rays);
+            for pattern in self.patterns {
                 let Some(first) = place(pattern.property) else {
                     continue;
                 };
-                let mut value = value(pattern);
+                easel.look(pattern);
                 if pattern.property == Property::Shininess {
-                    value[0] = value[0].max(Lanes([0.0; WIDTH]));
+                    easel.value[0] = easel.value[0].max(Lanes([0.0; WIDTH]));
                 }
                 let is_color = pattern.property == Property::Color;
                 let count = if is_color { 3 } else { 1 };
-                let columns = looks.terms.columns_mut().into_iter().skip(first);
-                for (column, number) in columns.zip(&value[..count]) {
-                    rows.put(column, &number.0);
+                for (column, lanes) in columns[first..].iter_mut().zip(&easel.value[..count]) {
+                    if let Some(first) = neighbours(rays) {
+                        column[first..first + WIDTH].copy_from_slice(&lanes.0);
+                    } else {
+                        for (ray, number) in rays.iter().zip(&lanes.0) {
+                            column[*ray as usize] = *number;
+                        }
+                    }
                 }
             }
-            return;
-        }
-        let values: Vec<[F64x32; 3]> = swatch.patterns.iter().map(value).collect();
-        for (lane, ray) in rays.iter().enumerate() {
-            let mut known = Known {
-                values: values.iter(),
-                lane,
-            };
-            let surface = Surface::of_terms(&swatch.material, &mut known);
-            if lit {
-                let row = row(&surface);
-                for (column, number) in looks.terms.columns_mut().into_iter().zip(row) {
-                    column[*ray as usize] = number;
-                }
-            }
-            looks.numbers[*ray as usize] = looks.add(self, surface);
         }
     }
 }

@@ -10,7 +10,7 @@ use super::bits::ones;
 use super::cones::{ALL, PACKETS, Packets};
 use super::finding::{Finding, concluded, is_better, occluded};
 use super::vector::place;
-use super::{RayColumns, Rays, Verdict};
+use super::{RayColumns, Verdict};
 use crate::catalogue::Bounds;
 use crate::field::{Level, Task, run_at};
 use crate::num::{BATCH, Column, F64x32, ROOM, Rows};
@@ -31,7 +31,7 @@ pub(super) struct Bundle {
     pub limit: Column,
     /// How far each ray was to be followed at first.
     pub t_max: Column,
-    /// The widths of the pixels at the origins.
+    /// The widths of the pixels at the origins, once they are measured.
     pub footprint: Column,
     /// By how much they grow with each scene unit.
     pub spread: Column,
@@ -60,6 +60,8 @@ pub(super) struct Bundle {
     pub count: usize,
     /// Whether the reciprocals of the directions are there.
     is_inverted: bool,
+    /// Whether the widths of the pixels are there.
+    is_measured: bool,
     /// Whether gradients, doubts and counts are not those of rays that have found nothing.
     is_marked: bool,
     /// The parts in closed form that rays were content with for a while, each once.
@@ -92,23 +94,22 @@ impl Bundle {
             leave: column,
             meets: [0; BATCH],
             is_inverted: false,
+            is_measured: false,
             is_marked: true,
             winners: Vec::new(),
         })
     }
 
-    /// Takes the rays with these numbers, from 1 to [`BATCH`] of them, in order, and forgets what was there.
+    /// Takes the rays with these numbers, from 1 to [`BATCH`] of them, in order, but for the widths of their pixels, and
+    /// forgets what was there.
     pub fn fill(&mut self, rays: &RayColumns, numbers: &[u32]) {
         self.count = numbers.len();
         let n = self.lanes();
-        let rows = Rows::in_order(numbers);
-        for (column, source) in self.columns_mut().into_iter().zip(rays) {
-            rows.take(source, column);
-            // Lanes without a ray repeat the first.
-            let first = column[0];
-            column[numbers.len()..n].fill(first);
-        }
-        self.is_inverted = false;
+        let ([a, b, c], [d, e, f]) = (&mut self.origin, &mut self.direction);
+        let lanes = [a, b, c, d, e, f, &mut self.t_max];
+        let [ways @ .., _, _] = *rays;
+        take(lanes, ways, (numbers, n));
+        (self.is_inverted, self.is_measured) = (false, false);
         self.winners.clear();
         self.limit[..n].copy_from_slice(&self.t_max[..n]);
         // They take part in nothing.
@@ -119,6 +120,16 @@ impl Bundle {
             self.steps.fill(0);
             self.evaluations.fill(0);
             self.gradient.iter_mut().for_each(|axis| axis.fill(0.0));
+        }
+    }
+
+    /// Takes the widths of the pixels too, which only marched rays ask for, unless they are there; of the same rays.
+    pub fn measure(&mut self, rays: &RayColumns, numbers: &[u32]) {
+        if !mem::replace(&mut self.is_measured, true) {
+            let count = self.lanes();
+            let [.., footprint, spread] = *rays;
+            let lanes = [&mut self.footprint, &mut self.spread];
+            take(lanes, [footprint, spread], (numbers, count));
         }
     }
 
@@ -141,12 +152,6 @@ impl Bundle {
     #[inline(always)]
     pub fn lanes(&self) -> usize {
         self.count.next_multiple_of(WIDTH).min(BATCH)
-    }
-
-    fn columns_mut(&mut self) -> [&mut Column; Rays::COLUMNS] {
-        let ([a, b, c], [d, e, f]) = (&mut self.origin, &mut self.direction);
-        let (g, h, i) = (&mut self.t_max, &mut self.footprint, &mut self.spread);
-        [a, b, c, d, e, f, g, h, i]
     }
 
     /// What a ray found so far.
@@ -232,6 +237,20 @@ impl Bundle {
     /// A walk of a ray could not tell; up to `free` it could.
     pub fn doubt(&mut self, ray: usize, free: f64) {
         self.unknown[ray] = self.unknown[ray].min(free);
+    }
+}
+
+/// Takes what columns have at these numbers, which are in order, into as many lanes: those without a ray repeat the first.
+fn take<const N: usize>(
+    lanes: [&mut Column; N],
+    columns: [&[f64]; N],
+    (numbers, count): (&[u32], usize),
+) {
+    let rows = Rows::in_order(numbers);
+    for (lanes, column) in lanes.into_iter().zip(columns) {
+        rows.take(column, lanes);
+        let first = lanes[0];
+        lanes[numbers.len()..count].fill(first);
     }
 }
 

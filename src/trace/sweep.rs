@@ -88,6 +88,13 @@ pub(super) struct Question<'a> {
 /// A part, and the packets of which it is asked.
 type Asked = (u32, Packets);
 
+/// The rays of a bundle: those of some columns with these numbers, and their beam.
+struct Asking<'a> {
+    rays: &'a RayColumns<'a>,
+    numbers: &'a [u32],
+    beam: Beam,
+}
+
 /// What a part is asked.
 struct Visit<'a> {
     marched: &'a Marched,
@@ -189,6 +196,11 @@ impl World {
             let Scratch { cones, bundle, .. } = &mut *scratch;
             run_at(self.level, Gather { cones, bundle });
         }
+        let asking = Asking {
+            rays,
+            numbers,
+            beam,
+        };
         let mut farthest = limit;
         for k in 0..scratch.descent.met.len() {
             let (enter, number) = scratch.descent.met[k];
@@ -199,7 +211,7 @@ impl World {
             if is_told {
                 packets &= self.meeting(number, &scratch.cones);
             }
-            if packets != 0 && self.ask((number, packets), &beam, question.any, scratch) {
+            if packets != 0 && self.ask((number, packets), &asking, question.any, scratch) {
                 farthest = self.farthest(scratch);
                 scratch.occluder = Some(number);
             }
@@ -253,7 +265,7 @@ impl World {
     }
 
     /// Asks one part of the rays in some packets of the bundle; gives whether any found something.
-    fn ask(&self, asked: Asked, beam: &Beam, any: bool, scratch: &mut Scratch) -> bool {
+    fn ask(&self, asked: Asked, asking: &Asking, any: bool, scratch: &mut Scratch) -> bool {
         let bundle = &mut *scratch.bundle;
         let (number, packets) = asked;
         match &self.parts[number as usize].kind {
@@ -262,7 +274,7 @@ impl World {
             PartKind::Block(form) => self.enter(form, asked, any, bundle),
             PartKind::Facet(form) => self.enter(form, asked, any, bundle),
             PartKind::Pane(form) => self.enter(&**form, asked, any, bundle),
-            PartKind::Ring(ring, spare) => self.ring(ring, spare, asked, beam, any, scratch),
+            PartKind::Ring(ring, spare) => self.ring(ring, spare, asked, asking, any, scratch),
             PartKind::Marched(marched) => {
                 bundle.clip(&marched.region, packets, self.level);
                 bundle.meeting(&mut scratch.rays);
@@ -270,7 +282,7 @@ impl World {
                     return false;
                 }
                 bundle.mark();
-                self.march(marched, number, beam, any, scratch)
+                self.march(marched, number, asking, any, scratch)
             }
         }
     }
@@ -303,7 +315,7 @@ impl World {
         ring: &Ring,
         spare: &Spare,
         (number, packets): Asked,
-        beam: &Beam,
+        asking: &Asking,
         any: bool,
         scratch: &mut Scratch,
     ) -> bool {
@@ -332,7 +344,7 @@ impl World {
         let meets = |ray: &u32| bundle.meets[*ray as usize] != 0;
         rays.clear();
         rays.extend(shop.open.drain(..).filter(meets));
-        let is_met = !rays.is_empty() && self.march(marched, number, beam, any, scratch);
+        let is_met = !rays.is_empty() && self.march(marched, number, asking, any, scratch);
         is_hit | is_met
     }
 
@@ -359,10 +371,16 @@ impl World {
         &self,
         marched: &Marched,
         number: u32,
-        beam: &Beam,
+        asking: &Asking,
         any: bool,
         scratch: &mut Scratch,
     ) -> bool {
+        let Asking {
+            rays,
+            numbers,
+            beam,
+        } = asking;
+        scratch.bundle.measure(rays, numbers);
         let rules = Rules {
             lipschitz: marched.lipschitz,
             tolerance: self.settings.tolerance,

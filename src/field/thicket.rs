@@ -7,7 +7,7 @@
 
 use super::{Closure, Level, Task, combine, compile_convex, compile_wide, run_at};
 use crate::catalogue::{Combination, Operation, with_compiled_blend};
-use crate::num::{Dual, F32x32, F64x32, Number, Vec3};
+use crate::num::{Dual, F32x32, F64x16, F64x32, Number, Vec3};
 use crate::scene::{Node, Shape};
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ pub struct Thicket {
 struct Leaf {
     value: Closure<F64x32>,
     short: Closure<F32x32>,
-    slope: Option<Closure<Dual<F64x32, 1>>>,
+    gradient: Option<Closure<Dual<F64x16, 3>>>,
     lipschitz: f64,
 }
 
@@ -110,7 +110,7 @@ impl Thicket {
             leaves.push(Leaf {
                 value: compile_wide(leaf, level),
                 short: compile_wide(leaf, level),
-                slope: (!node.has_graph()).then(|| compile_convex(leaf, level)),
+                gradient: (!node.has_graph()).then(|| compile_convex(leaf, level)),
                 lipschitz: lipschitz(leaf),
             });
             leaves.len() - 1
@@ -216,15 +216,15 @@ impl Thicket {
         self.closure(&left.branch, &|leaf| self.leaves[leaf].short.clone())
     }
 
-    /// The closure of what is left, with the derivative along a direction; none for fields with graphs.
-    pub fn slope(&self, left: &Thinned) -> Option<Closure<Dual<F64x32, 1>>> {
+    /// The closure of what is left, with its gradient; none for fields with graphs.
+    pub fn gradient(&self, left: &Thinned) -> Option<Closure<Dual<F64x16, 3>>> {
         let leaf = |leaf: usize| {
-            let slope = self.leaves[leaf].slope.as_ref();
-            slope
+            let gradient = self.leaves[leaf].gradient.as_ref();
+            gradient
                 .cloned()
-                .expect("either all leaves have slopes or none")
+                .expect("either all leaves have gradients or none")
         };
-        self.leaves[0].slope.as_ref()?;
+        self.leaves[0].gradient.as_ref()?;
         Some(self.closure(&left.branch, &leaf))
     }
 
@@ -492,11 +492,11 @@ mod tests {
                 assert_eq!(expected, found, "seed {seed}");
                 let (low, high) = (sifted.reach.low.0[lane], sifted.reach.high.0[lane]);
                 assert!(expected.0.iter().all(|x| low <= *x && *x <= high));
-                let rate = |x: F64x32| Dual::new(x, [Lanes([0.6; 32])]);
-                let moving = Vec3::new(rate(places.x), rate(places.y), rate(places.z));
-                let slope = thicket.slope(&thinned).expect("no graphs")(&moving);
+                let some = |x: F64x32, axis| Dual::variable(Lanes::from_fn(|k| x.0[k]), axis);
+                let moving = Vec3::new(some(places.x, 0), some(places.y, 1), some(places.z, 2));
+                let gradient = thicket.gradient(&thinned).expect("no graphs")(&moving);
                 let expected = compile_convex(&node, Level::best())(&moving);
-                assert_eq!(slope.partial[0], expected.partial[0], "seed {seed}");
+                assert_eq!(gradient.partial, expected.partial, "seed {seed}");
             }
         }
         assert!(3 * left < 2 * all, "{left} of {all} leaves are left");

@@ -21,6 +21,9 @@ pub type F32x32 = Lanes<f32, 32>;
 /// 32 double precision lanes: four AVX-512 registers.
 pub type F64x32 = Lanes<f64, 32>;
 
+/// 16 lanes, for numbers that take along the derivatives by several variables.
+pub type F64x16 = Lanes<f64, 16>;
+
 /// The lanes whose lane `$i` is `$value`. A loop in place, because a closure might fall out of the feature region.
 macro_rules! each {
     ($i:ident => $value:expr) => {{

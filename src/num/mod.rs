@@ -28,7 +28,7 @@ pub use bent::Bent;
 pub use columns::Columns;
 pub use dual::Dual;
 pub use interval::Interval;
-pub use lanes::{F32x32, F32x64, F64x32, Lanes};
+pub use lanes::{F32x32, F32x64, F64x16, F64x32, Lanes};
 pub use lattice::Lattice;
 pub use number::Number;
 pub use rounded::Rounded;

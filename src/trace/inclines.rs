@@ -7,7 +7,10 @@
 
 use super::bundle::{Bundle, Choice, WIDTH};
 use crate::field::{Closure, Task, Walked};
-use crate::num::{Dual, F64x32, Lanes, Vec3};
+use crate::num::{Dual, F64x16, F64x32, Lanes, Vec3};
+
+/// How many gradients dual numbers give at once.
+const HALF: usize = F64x16::WIDTH;
 
 /// Finds the gradients at the hits of up to 32 rays: the derivatives along the three axes.
 pub(super) struct Gradient<'a> {
@@ -18,10 +21,10 @@ pub(super) struct Gradient<'a> {
 
 /// Where derivatives come from.
 pub(super) enum Derivatives<'a> {
-    /// From dual numbers, along one axis at a time.
-    Along(&'a Closure<Dual<F64x32, 1>>),
-    /// From a graph, along all three.
-    All(&'a Walked<F64x32>),
+    /// From dual numbers, for half as many places at once.
+    Dual(&'a Closure<Dual<F64x16, 3>>),
+    /// From a graph.
+    Graph(&'a Walked<F64x32>),
 }
 
 impl Task for Gradient<'_> {
@@ -46,17 +49,28 @@ impl Task for Gradient<'_> {
         }
         let mut gradient = [Lanes([0.0; WIDTH]); 3];
         match source {
-            Derivatives::All(walk) => {
+            Derivatives::Graph(walk) => {
                 let [x, y, z] = places.map(Lanes);
                 walk(&Vec3::new(x, y, z), &mut gradient);
             }
-            Derivatives::Along(slope) => {
-                for axis in 0..3 {
-                    let moving = |k: usize| {
-                        let rate = if k == axis { 1.0 } else { 0.0 };
-                        Dual::new(Lanes(places[k]), [Lanes([rate; WIDTH])])
-                    };
-                    gradient[axis] = slope(&Vec3::new(moving(0), moving(1), moving(2))).partial[0];
+            Derivatives::Dual(field) => {
+                for first in (0..rays.len().min(WIDTH)).step_by(HALF) {
+                    let mut some = [Lanes([0.0; HALF]); 3];
+                    for axis in 0..3 {
+                        some[axis]
+                            .0
+                            .copy_from_slice(&places[axis][first..first + HALF]);
+                    }
+                    let [x, y, z] = some;
+                    let moving = Vec3::new(
+                        Dual::variable(x, 0),
+                        Dual::variable(y, 1),
+                        Dual::variable(z, 2),
+                    );
+                    let partial = field(&moving).partial;
+                    for axis in 0..3 {
+                        gradient[axis].0[first..first + HALF].copy_from_slice(&partial[axis].0);
+                    }
                 }
             }
         }

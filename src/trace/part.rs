@@ -10,7 +10,7 @@ use crate::catalogue::{AnyPrimitive, Bounds, Combination, Operation, Triangle, w
 use crate::field::{
     Closure, Level, Thicket, Walked, compile, compile_convex, compile_graph, compile_wide,
 };
-use crate::num::{Bent, Dual, F32x32, F64x32, Interval, Rounded, Vec3};
+use crate::num::{Bent, Dual, F32x32, F64x16, F64x32, Interval, Rounded, Vec3};
 use crate::scene::{Fault, FieldShape, Graph, Material, Method, Node, Parts, Shadow, Shape};
 use glam::DVec3;
 use std::sync::{Arc, OnceLock};
@@ -102,8 +102,8 @@ pub struct Marched {
     ranges: OnceLock<Closure<Dual<Interval, 1>>>,
     /// What [`Marched::gradient`] gives, once it was asked for.
     gradient: OnceLock<Closure<Dual<f64, 3>>>,
-    /// The field and its derivative along a direction over wide lanes, for gradients; none for fields with graphs.
-    pub gradient_wide: Option<Closure<Dual<F64x32, 1>>>,
+    /// The field and its gradient over lanes; none for fields with graphs.
+    pub gradient_wide: Option<Closure<Dual<F64x16, 3>>>,
     /// The gradient of a field with graphs over wide lanes, once it was asked for; none where that would be too large.
     gradient_graph: OnceLock<Option<Walked<F64x32>>>,
     /// The combination in closed form, if it has one.
@@ -248,10 +248,7 @@ impl Marched {
             single: compile_convex(node, Level::Baseline),
         });
         let is_plain = demands.lanes && !node.has_graph();
-        let gradient_wide = match &slope {
-            Some(slope) => Some(slope.wide.clone()),
-            None => is_plain.then(|| compile_convex(node, level)),
-        };
+        let gradient_wide = is_plain.then(|| compile_convex(node, level));
         let leaf_constant = |leaf: &Node| leaf.lipschitz_over(region);
         // What rests on a claim is sampled, not thinned out: so a claim that is wrong is noticed.
         let is_thinned = demands.lanes && !node.rests_on_claim();

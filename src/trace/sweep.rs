@@ -627,16 +627,16 @@ impl World {
         let Scratch { bundle, fresh, .. } = scratch;
         if !visit.any && !fresh.is_empty() {
             let thinned = match (&visit.marched.thicket, left) {
-                (Some(thicket), Some(left)) => thicket.slope(left),
+                (Some(thicket), Some(left)) => thicket.gradient(left),
                 _ => None,
             };
-            let slope = thinned.as_ref().or(visit.marched.gradient_wide.as_ref());
-            let source = match slope {
-                Some(slope) => Some(Derivatives::Along(slope)),
+            let gradient = thinned.as_ref().or(visit.marched.gradient_wide.as_ref());
+            let source = match gradient {
+                Some(gradient) => Some(Derivatives::Dual(gradient)),
                 None => visit
                     .marched
                     .gradient_graph(self.level)
-                    .map(Derivatives::All),
+                    .map(Derivatives::Graph),
             };
             if let Some(source) = source {
                 for rays in fresh.chunks(WIDTH) {

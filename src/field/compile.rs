@@ -40,6 +40,9 @@ pub trait Task {
 }
 
 /// Runs `task` with the instructions of `level`, or of the best level below it that the processor has.
+///
+/// Inlined, since a task that is handed on is written once more, in pieces that are slow to be read together.
+#[inline(always)]
 pub fn run_at<T: Task>(level: Level, task: T) -> T::Output {
     match level.min(Level::supported()) {
         #[cfg(target_arch = "x86_64")]
@@ -48,20 +51,26 @@ pub fn run_at<T: Task>(level: Level, task: T) -> T::Output {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
         Level::Avx2 => unsafe { tasks::run_avx2(task) },
-        _ => task.run(),
+        _ => tasks::run_baseline(task),
     }
 }
 
 /// Tasks, for each level: apart from the closures, so that a change of a task does not compile them again.
-#[cfg(target_arch = "x86_64")]
 mod tasks {
     use super::Task;
 
+    #[inline(never)]
+    pub(super) fn run_baseline<T: Task>(task: T) -> T::Output {
+        task.run()
+    }
+
+    #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
     pub(super) fn run_avx2<T: Task>(task: T) -> T::Output {
         task.run()
     }
 
+    #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl")]
     pub(super) fn run_avx512<T: Task>(task: T) -> T::Output {
         task.run()

@@ -6,13 +6,13 @@
 )]
 
 use super::Verdict;
-use super::bits::ones;
+use super::bits::{LANES, bits, ones};
 use super::bundle::{Bundle, Choice, WIDTH};
 use super::hierarchy::stretch;
 use super::method::{Ending, finest};
 use super::part::Marched;
-use crate::field::Task;
-use crate::num::{F64x32, Lanes, Vec3};
+use crate::field::{Level, Task, run_at};
+use crate::num::{F64x32, Lanes, Number, Vec3};
 
 /// A number for each lane.
 pub(super) type Lane = [f64; WIDTH];
@@ -57,7 +57,7 @@ pub(super) mod state {
     /// Whether what it found, or did not find, is to be looked at.
     #[inline(always)]
     pub fn has_ended(state: i64) -> bool {
-        state > ARRIVED && state != FAR
+        (state > ARRIVED) & (state != FAR)
     }
 
     /// Whether it wants another value.
@@ -412,20 +412,25 @@ impl Packet {
     }
 
     /// The lanes that go on, in whichever precision.
-    pub fn going(&self) -> impl Iterator<Item = usize> + use<> {
-        self.lanes(|state| state::is_going(state) || state == state::FAR)
+    pub fn going(&self, level: Level) -> impl Iterator<Item = usize> + use<> {
+        self.lanes(level, |state| {
+            state::is_going(state) | (state == state::FAR)
+        })
     }
 
     /// The lanes that have come to the end of their stretch.
-    pub fn arrived(&self) -> impl Iterator<Item = usize> + use<> {
-        self.lanes(|state| state == state::ARRIVED)
+    pub fn arrived(&self, level: Level) -> impl Iterator<Item = usize> + use<> {
+        self.lanes(level, |state| state == state::ARRIVED)
     }
 
     /// The lanes that are in such a state now.
-    fn lanes(&self, is_such: fn(i64) -> bool) -> impl Iterator<Item = usize> + use<> {
-        ones((0..WIDTH).fold(0, |set, lane| {
-            set | u32::from(is_such(self.state[lane])) << lane
-        }))
+    fn lanes<F: Fn(i64) -> bool>(
+        &self,
+        level: Level,
+        is_such: F,
+    ) -> impl Iterator<Item = usize> + use<F> {
+        let states = &self.state;
+        ones(run_at(level, Such { states, is_such }))
     }
 
     /// Lets every lane walk by itself.
@@ -445,9 +450,16 @@ impl Packet {
     /// Which lanes have found something since the last time, with the rare ones walked to their ends one by one. Those that
     /// are stuck go on.
     pub fn found(&mut self, rules: &Rules, marched: &Marched, sink: &mut Vec<Found>) {
-        for lane in self.lanes(state::has_ended) {
+        let level = marched.level();
+        run_at(level, Place(self));
+        for lane in self.lanes(level, state::has_ended) {
             let ending = match self.state[lane] {
-                state::HIT => self.hit(lane),
+                state::HIT => Ending {
+                    verdict: Verdict::Hit,
+                    t: self.t[lane],
+                    error: self.error[lane],
+                    steps: self.steps[lane] as u32,
+                },
                 state::REFUTED => self.refuted(lane, marched),
                 state::SINGLE => self.single(lane, rules, marched),
                 state::STUCK => {
@@ -460,41 +472,66 @@ impl Packet {
             sink.push(Found { lane, ending });
         }
     }
+}
 
-    fn hit(&self, lane: usize) -> Ending {
-        let (low, high) = (self.last_t[lane], self.high_t[lane]);
-        let (a, b) = (self.last_value[lane], self.high_value[lane]);
-        let grid = self.grid[lane];
-        let width = high - low;
-        let is_on_grid = (low / grid).fract() == 0.0 && width == grid;
-        let is_by_tangents = self.error[lane] > 0.0;
-        let t = if is_by_tangents {
-            self.t[lane]
-        } else if b == 0.0 || is_on_grid {
-            place_in_cell((low, a), (high, b))
-        } else {
-            low + 0.5 * width
-        };
-        let error = if is_by_tangents {
-            self.error[lane]
-        } else {
-            width.max(finest(self.size[lane], t))
-        };
-        Ending {
-            verdict: Verdict::Hit,
-            t,
-            error,
-            steps: self.steps[lane] as u32,
+/// Tells which lanes are in such a state, by their bits.
+struct Such<'a, F> {
+    states: &'a [i64; WIDTH],
+    is_such: F,
+}
+
+impl<F: Fn(i64) -> bool> Task for Such<'_, F> {
+    type Output = u32;
+
+    #[inline(always)]
+    fn run(self) -> u32 {
+        let mut set = 0;
+        for first in (0..WIDTH).step_by(LANES) {
+            set |= bits(|lane| (self.is_such)(self.states[first + lane])) << first;
+        }
+        set
+    }
+}
+
+/// Writes where the lanes that have found a surface hit it, and by how much that may be off.
+struct Place<'a>(&'a mut Packet);
+
+impl Task for Place<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let p = self.0;
+        for lane in 0..WIDTH {
+            let (low, high) = (p.last_t[lane], p.high_t[lane]);
+            let (a, b) = (p.last_value[lane], p.high_value[lane]);
+            let (t, error, size) = (p.t[lane], p.error[lane], p.size[lane]);
+            let width = high - low;
+            // Both are powers of two, so their products are exact.
+            let cells = low * p.finer[lane];
+            let is_on_grid = (Number::floor(cells) == cells) & (width == p.grid[lane]);
+            let in_cell = place_in_cell((low, a), (high, b));
+            let middle = low + 0.5 * width;
+            let between = if is_on_grid | (b == 0.0) {
+                in_cell
+            } else {
+                middle
+            };
+            let least = finest(size, between);
+            let off = if width > least { width } else { least };
+            // Those that a walk by tangents found are there.
+            let is_open = (p.state[lane] == state::HIT) & (error == 0.0);
+            p.t[lane] = if is_open { between } else { t };
+            p.error[lane] = if is_open { off } else { error };
         }
     }
 }
 
 /// Where in a cell of the grid the surface is, between two samples.
+#[inline(always)]
 pub(super) fn place_in_cell((low, a): (f64, f64), (high, b): (f64, f64)) -> f64 {
-    if b == 0.0 {
-        return high;
-    }
-    low + a / (a - b) * (high - low)
+    let between = low + a / (a - b) * (high - low);
+    if b == 0.0 { high } else { between }
 }
 
 /// The spacing of the places where a ray's hits are enclosed: a power of two that depends on the ray and the part alone.

@@ -330,6 +330,11 @@ impl Marched {
 }
 
 impl Marched {
+    /// The instructions that its closures were made with.
+    pub fn level(&self) -> Level {
+        self.level
+    }
+
     /// Whether the shape has no finite bounds.
     pub fn is_endless(&self) -> bool {
         !self.region.is_finite()

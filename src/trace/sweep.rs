@@ -480,7 +480,7 @@ impl World {
                 continue;
             }
             self.advance(visit, stage, &mut scratch.packets[k], few);
-            for from in scratch.packets[k].going() {
+            for from in scratch.packets[k].going(self.level) {
                 let [packet, mixed] = pair(&mut scratch.packets, k);
                 mixed.adopt(homes.len(), packet, from);
                 homes.push((k, from));
@@ -491,7 +491,7 @@ impl World {
             }
             is_hit |= self.settle(visit, k, scratch);
             // Those that were stuck.
-            while scratch.packets[k].going().next().is_some() {
+            while scratch.packets[k].going(self.level).next().is_some() {
                 self.advance(visit, stage, &mut scratch.packets[k], 0);
                 is_hit |= self.settle(visit, k, scratch);
             }
@@ -554,14 +554,14 @@ impl World {
         scratch: &mut Scratch,
     ) -> bool {
         let is_hit = self.settle(visit, MIXED, scratch);
-        for lane in scratch.packets[MIXED].arrived() {
+        for lane in scratch.packets[MIXED].arrived(self.level) {
             let (k, from) = homes[lane];
             let [packet, mixed] = pair(&mut scratch.packets, k);
             packet.adopt(from, mixed, lane);
         }
         let mixed = &mut scratch.packets[MIXED];
         let mut left = 0;
-        for from in mixed.going() {
+        for from in mixed.going(self.level) {
             homes[left] = homes[from];
             if left != from {
                 mixed.shift(left, from);

@@ -56,19 +56,21 @@ impl<T: Float, const W: usize> Lanes<T, W> {
     }
 }
 
-/// `near`, with the lanes that the kernel does not reach taken from `anywhere`. Rare, so it may leave the feature region.
+/// `near`, or `anywhere` in the lanes that it does not reach. Rare, so it may leave the feature region: the bits are the same.
 #[cold]
 #[inline(never)]
 fn with_far_lanes<T: Float, const W: usize>(
     x: Lanes<T, W>,
-    near: Lanes<T, W>,
+    near: fn(T) -> T,
     anywhere: fn(T) -> T,
 ) -> Lanes<T, W> {
-    let mut out = near;
-    for (out, x) in out.0.iter_mut().zip(x.0) {
-        if kernels::is_beyond_trig(x) {
-            *out = anywhere(x);
-        }
+    let mut out = x;
+    for x in &mut out.0 {
+        *x = if kernels::is_beyond_trig(*x) {
+            anywhere(*x)
+        } else {
+            near(*x)
+        };
     }
     out
 }
@@ -158,36 +160,33 @@ impl<T: Float, const W: usize> Number for Lanes<T, W> {
 
     #[inline(always)]
     fn sin(self) -> Self {
-        let near = each!(i => kernels::sin_near(self.0[i]));
         if self.is_beyond_trig() {
-            return with_far_lanes(self, near, T::sin_anywhere);
+            return with_far_lanes(self, kernels::sin_near, T::sin_anywhere);
         }
-        near
+        each!(i => kernels::sin_near(self.0[i]))
     }
 
     #[inline(always)]
     fn cos(self) -> Self {
-        let near = each!(i => kernels::cos_near(self.0[i]));
         if self.is_beyond_trig() {
-            return with_far_lanes(self, near, T::cos_anywhere);
+            return with_far_lanes(self, kernels::cos_near, T::cos_anywhere);
         }
-        near
+        each!(i => kernels::cos_near(self.0[i]))
     }
 
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
+        if self.is_beyond_trig() {
+            return (
+                with_far_lanes(self, kernels::sin_near, T::sin_anywhere),
+                with_far_lanes(self, kernels::cos_near, T::cos_anywhere),
+            );
+        }
         let (mut sine, mut cosine) = ([T::ZERO; W], [T::ZERO; W]);
         for i in 0..W {
             (sine[i], cosine[i]) = kernels::sin_cos_near(self.0[i]);
         }
-        let (sine, cosine) = (Self(sine), Self(cosine));
-        if self.is_beyond_trig() {
-            return (
-                with_far_lanes(self, sine, T::sin_anywhere),
-                with_far_lanes(self, cosine, T::cos_anywhere),
-            );
-        }
-        (sine, cosine)
+        (Self(sine), Self(cosine))
     }
 
     #[inline(always)]

@@ -94,21 +94,51 @@ impl Program {
         shape: &impl Fn(usize, &Vec3<N>) -> N,
     ) {
         for instruction in &self.instructions {
-            let r = |id: Id| registers[id.index()];
-            let [into, beside] = instruction.into;
-            registers[into.index()] = match instruction.rule {
-                Rule::Plain(op) => apply(&op, p, registers, shape),
-                Rule::Times(a, k) => r(a) * N::splat(k),
-                Rule::Plus(a, k) => r(a) + N::splat(k),
-                Rule::Minus(a, k) => r(a) - N::splat(k),
-                Rule::From(k, a) => N::splat(k) - r(a),
-                Rule::TimesPlus([a, b, c]) => r(a) * r(b) + r(c),
-                Rule::SinCos(a) => {
-                    let (sine, cosine) = r(a).sin_cos();
-                    registers[beside.index()] = cosine;
-                    sine
+            let [into, beside] = instruction.into.map(Id::index);
+            // Each rule writes its value itself: one that is handed to a place behind all of them lies on the stack on its way,
+            // and so do operands in the list of arguments of a function.
+            match instruction.rule {
+                Rule::Plain(Op::Add(a, b)) => registers[into] = r(registers, a) + r(registers, b),
+                Rule::Plain(Op::Subtract(a, b)) => {
+                    registers[into] = r(registers, a) - r(registers, b);
                 }
-            };
+                Rule::Plain(Op::Multiply(a, b)) => {
+                    registers[into] = r(registers, a) * r(registers, b);
+                }
+                Rule::Plain(Op::Square(a)) => registers[into] = r(registers, a).square(),
+                Rule::Plain(Op::Call(Function::Abs, [a, ..])) => {
+                    registers[into] = r(registers, a).abs();
+                }
+                Rule::Plain(Op::Call(Function::Sqrt, [a, ..])) => {
+                    registers[into] = r(registers, a).sqrt();
+                }
+                Rule::Plain(Op::Call(Function::Floor, [a, ..])) => {
+                    registers[into] = r(registers, a).floor();
+                }
+                Rule::Plain(Op::Call(Function::Min, [a, b, _])) => {
+                    registers[into] = r(registers, a).min(r(registers, b));
+                }
+                Rule::Plain(Op::Call(Function::Max, [a, b, _])) => {
+                    registers[into] = r(registers, a).max(r(registers, b));
+                }
+                Rule::Plain(Op::Call(Function::Sin, [a, ..])) => {
+                    registers[into] = r(registers, a).sin();
+                }
+                Rule::Plain(Op::Call(Function::Cos, [a, ..])) => {
+                    registers[into] = r(registers, a).cos();
+                }
+                Rule::Plain(op) => registers[into] = apply(&op, p, registers, shape),
+                Rule::Times(a, k) => registers[into] = r(registers, a) * N::splat(k),
+                Rule::Plus(a, k) => registers[into] = r(registers, a) + N::splat(k),
+                Rule::Minus(a, k) => registers[into] = r(registers, a) - N::splat(k),
+                Rule::From(k, a) => registers[into] = N::splat(k) - r(registers, a),
+                Rule::TimesPlus([a, b, c]) => {
+                    registers[into] = r(registers, a) * r(registers, b) + r(registers, c);
+                }
+                Rule::SinCos(a) => {
+                    (registers[into], registers[beside]) = r(registers, a).sin_cos();
+                }
+            }
         }
     }
 
@@ -125,6 +155,12 @@ impl Program {
     pub fn output<N: Number>(&self, registers: &[N], i: usize) -> N {
         registers[self.outputs[i].index()]
     }
+}
+
+/// What a register holds.
+#[inline(always)]
+fn r<N: Number>(registers: &[N], id: Id) -> N {
+    registers[id.index()]
 }
 
 /// An instruction for each operation, with constants in their places and products in sums.

@@ -135,6 +135,26 @@ impl Similarity {
         std::array::from_fn(|j| s * (0..3).map(|i| self.rows[i][j] * v[i]).sum::<f64>())
     }
 
+    /// As [`Similarity::point`]; a map that only moves adds and does no more.
+    #[inline(always)]
+    pub fn inside<N: Number>(&self, p: &Vec3<N>) -> Vec3<N> {
+        if self.is_translation() {
+            *p + Vec3::splat(self.shift)
+        } else {
+            self.point(p)
+        }
+    }
+
+    /// The field outside, given the child's at [`Similarity::inside`].
+    #[inline(always)]
+    pub fn field<N: Number>(&self, value: N) -> N {
+        if self.is_translation() {
+            value
+        } else {
+            value * N::splat(self.scale)
+        }
+    }
+
     /// Whether the matrix is the identity: the map only moves.
     pub fn is_translation(&self) -> bool {
         self.rows == Self::IDENTITY.rows && self.scale == 1.0

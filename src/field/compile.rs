@@ -6,7 +6,7 @@
 #![allow(unsafe_code)]
 
 use super::Level;
-use crate::catalogue::Combination;
+use crate::catalogue::{Combination, Similarity};
 use crate::num::{Number, Vec3};
 use crate::scene::{Graph, Node};
 use std::sync::Arc;
@@ -103,6 +103,19 @@ fn at_level<N: Number, const GRAPHS: bool>(node: &Node, level: Level) -> Closure
         // SAFETY: as above.
         Level::Avx2 => unsafe { avx2::build::<N, GRAPHS>(node) },
         _ => baseline::build::<N, GRAPHS>(node),
+    }
+}
+
+/// The closure of what `map` places, given its own that was compiled for `level`.
+pub fn place<N: Number>(child: Closure<N>, map: Similarity, level: Level) -> Closure<N> {
+    match level.min(Level::supported()) {
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: `Level::supported` has detected every feature of the module.
+        Level::Avx512 => unsafe { avx512::placed(child, map) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Level::Avx2 => unsafe { avx2::placed(child, map) },
+        _ => baseline::placed(child, map),
     }
 }
 
@@ -209,7 +222,7 @@ macro_rules! builders {
             }
 
             $(#[$feature])*
-            fn placed<N: Number>(child: Closure<N>, map: Similarity) -> Closure<N> {
+            pub(super) fn placed<N: Number>(child: Closure<N>, map: Similarity) -> Closure<N> {
                 let scale = N::splat(map.scale);
                 if map.is_translation() {
                     let shift = map.shift;

@@ -5,8 +5,9 @@
 //! the same without it, to the bit, at every point of the ball; and so with signs for intersections and differences.
 //! Sources: the value rule of Barbier et al. 2025, with the constant of each child instead of 1; ranges as in Keeter 2025.
 
-use super::{Closure, Level, Task, combine, compile_convex, compile_wide, run_at};
-use crate::catalogue::{Combination, Operation, with_compiled_blend};
+use super::{Closure, Level, Task, combine, compile_convex, compile_wide, place, run_at};
+use crate::catalogue::with_compiled_blend;
+use crate::catalogue::{Bounds, Combination, Operation, Similarity};
 use crate::num::{Dual, F32x32, F64x16, F64x32, Number, Vec3};
 use crate::scene::{Node, Shape};
 use std::sync::Arc;
@@ -26,11 +27,12 @@ struct Leaf {
     lipschitz: f64,
 }
 
-/// A tree of combinations over leaves, by number.
+/// A tree of combinations, some of them placed, over leaves, by number.
 #[derive(Clone, Debug, PartialEq)]
 enum Branch {
     Leaf(usize),
     Join(Arc<Combination>, Vec<Branch>),
+    Placed(Similarity, Box<Branch>),
 }
 
 impl Branch {
@@ -39,6 +41,7 @@ impl Branch {
         match self {
             Self::Leaf(number) => *number,
             Self::Join(_, children) => children[0].first(),
+            Self::Placed(_, child) => child.first(),
         }
     }
 
@@ -47,6 +50,7 @@ impl Branch {
         match self {
             Self::Leaf(number) => number + 1,
             Self::Join(_, children) => children.last().map_or(0, Self::end),
+            Self::Placed(_, child) => child.end(),
         }
     }
 }
@@ -61,6 +65,16 @@ pub struct Reach {
 }
 
 impl Reach {
+    /// The values in units that are `scale` times as small, with room for rounding.
+    fn times(self, scale: f64) -> Self {
+        let (mut low, mut high) = (self.low, self.high);
+        for (low, high) in low.0.iter_mut().zip(&mut high.0) {
+            *low = (*low * scale).next_down();
+            *high = (*high * scale).next_up();
+        }
+        Self { low, high }
+    }
+
     /// The numbers with their signs turned.
     #[inline(always)]
     fn negated(self) -> Self {
@@ -102,16 +116,21 @@ impl Thinned {
 }
 
 impl Thicket {
-    /// The thicket of a combination, with constants of its leaves from `lipschitz`; none for what has too few leaves to
-    /// be worth it.
-    pub fn new(node: &Node, level: Level, lipschitz: &dyn Fn(&Node) -> f64) -> Option<Self> {
+    /// The thicket of a combination, with constants of its leaves over what is asked of them in `region` from `lipschitz`;
+    /// none for what has too few leaves to be worth it.
+    pub fn new(
+        node: &Node,
+        level: Level,
+        region: Bounds,
+        lipschitz: &dyn Fn(&Node, Bounds) -> f64,
+    ) -> Option<Self> {
         let mut leaves = Vec::new();
-        let root = branch(node, &mut |leaf| {
+        let root = branch(node, region, &mut |leaf, region| {
             leaves.push(Leaf {
                 value: compile_wide(leaf, level),
                 short: compile_wide(leaf, level),
                 gradient: (!node.has_graph()).then(|| compile_convex(leaf, level)),
-                lipschitz: lipschitz(leaf),
+                lipschitz: lipschitz(leaf, region),
             });
             leaves.len() - 1
         });
@@ -146,10 +165,24 @@ impl Thicket {
 
     /// The values of all leaves at 32 points.
     pub fn values(&self, points: &Vec3<F64x32>) -> Vec<F64x32> {
-        self.leaves
-            .iter()
-            .map(|leaf| (leaf.value)(points))
-            .collect()
+        let mut values = Vec::with_capacity(self.leaves.len());
+        self.add_values(&self.root, points, &mut values);
+        values
+    }
+
+    fn add_values(&self, branch: &Branch, points: &Vec3<F64x32>, values: &mut Vec<F64x32>) {
+        match branch {
+            Branch::Leaf(number) => values.push((self.leaves[*number].value)(points)),
+            Branch::Join(_, children) => {
+                for child in children {
+                    self.add_values(child, points, values);
+                }
+            }
+            Branch::Placed(map, child) => {
+                let inside = run_at(self.level, Inside { map, points });
+                self.add_values(child, &inside, values);
+            }
+        }
     }
 
     /// The field at these points, from the [`Thicket::values`] of its leaves.
@@ -161,28 +194,40 @@ impl Thicket {
     /// value may be rounding.
     pub fn sifted(&self, values: &[F64x32], radii: &F64x32, noise: f64) -> Sifted {
         let mut says = vec![u32::MAX; self.leaves.len()];
-        let reach = |leaf: usize| {
-            let around = Around {
-                value: &values[leaf],
-                radii,
-                lipschitz: self.leaves[leaf].lipschitz,
-                noise,
-            };
-            run_at(self.level, around)
-        };
-        let reach = self.sift(&self.root, &reach, &mut says);
+        let reach = self.sift(&self.root, values, (radii, noise), &mut says);
         Sifted { says, reach }
     }
 
-    /// Takes from `says` the leaves of a branch that have no say; gives its reach.
-    fn sift(&self, branch: &Branch, reach: &dyn Fn(usize) -> Reach, says: &mut [u32]) -> Reach {
+    /// Takes from `says` the leaves of a branch that have no say in balls of these radii, given the values of all leaves at
+    /// their centres and how much of these may be rounding; gives its reach.
+    fn sift(
+        &self,
+        branch: &Branch,
+        values: &[F64x32],
+        (radii, noise): (&F64x32, f64),
+        says: &mut [u32],
+    ) -> Reach {
         let (combination, children) = match branch {
-            Branch::Leaf(number) => return reach(*number),
+            Branch::Leaf(number) => {
+                let around = Around {
+                    value: &values[*number],
+                    radii,
+                    lipschitz: self.leaves[*number].lipschitz,
+                    noise,
+                };
+                return run_at(self.level, around);
+            }
+            Branch::Placed(map, child) => {
+                let scale = map.scale;
+                let inner = *radii * F64x32::splat((1.0 + 1e-9) / scale);
+                let reach = self.sift(child, values, (&inner, noise / scale), says);
+                return reach.times(scale);
+            }
             Branch::Join(combination, children) => (combination, children),
         };
-        let mut all = self.sift(&children[0], reach, says);
+        let mut all = self.sift(&children[0], values, (radii, noise), says);
         for child in &children[1..] {
-            let own = self.sift(child, reach, says);
+            let own = self.sift(child, values, (radii, noise), says);
             let standing = Standing {
                 combination,
                 own,
@@ -240,18 +285,26 @@ impl Thicket {
                 combine(combination, children, self.level)
                     .expect("a thicket has compiled blends alone")
             }
+            Branch::Placed(map, child) => place(self.closure(child, leaf), *map, self.level),
         }
     }
 }
 
-/// The tree of a node; `leaf` numbers what is not taken apart.
-fn branch(node: &Node, leaf: &mut dyn FnMut(&Node) -> usize) -> Branch {
-    match node.shape() {
-        Shape::Combination(combination, children) if can_thin(combination) => Branch::Join(
-            Arc::new(combination.clone()),
-            children.iter().map(|child| branch(child, leaf)).collect(),
-        ),
-        _ => Branch::Leaf(leaf(node)),
+/// The tree of a node that is asked in `region`; `leaf` numbers what is not taken apart, with what is asked of it.
+fn branch(node: &Node, region: Bounds, leaf: &mut dyn FnMut(&Node, Bounds) -> usize) -> Branch {
+    let (map, inner, inside) = node.unplaced_in(region);
+    let Shape::Combination(combination, children) = inner.shape() else {
+        return Branch::Leaf(leaf(node, region));
+    };
+    if !can_thin(combination) {
+        return Branch::Leaf(leaf(node, region));
+    }
+    let children = children.iter().map(|child| branch(child, inside, leaf));
+    let join = Branch::Join(Arc::new(combination.clone()), children.collect());
+    if map == Similarity::IDENTITY {
+        join
+    } else {
+        Branch::Placed(map, Box::new(join))
     }
 }
 
@@ -266,6 +319,7 @@ fn count(branch: &Branch) -> usize {
     match branch {
         Branch::Leaf(_) => 1,
         Branch::Join(_, children) => children.iter().map(count).sum(),
+        Branch::Placed(_, child) => count(child),
     }
 }
 
@@ -288,6 +342,40 @@ fn joined(branch: &Branch, values: &[F64x32], level: Level) -> F64x32 {
             }
             all
         }
+        Branch::Placed(map, child) => {
+            let value = &joined(child, values, level);
+            run_at(level, Outside { map, value })
+        }
+    }
+}
+
+/// Maps points to where a placed branch is asked.
+struct Inside<'a> {
+    map: &'a Similarity,
+    points: &'a Vec3<F64x32>,
+}
+
+impl Task for Inside<'_> {
+    type Output = Vec3<F64x32>;
+
+    #[inline(always)]
+    fn run(self) -> Vec3<F64x32> {
+        self.map.inside(self.points)
+    }
+}
+
+/// Finds the values of a placed branch, given those in its own units.
+struct Outside<'a> {
+    map: &'a Similarity,
+    value: &'a F64x32,
+}
+
+impl Task for Outside<'_> {
+    type Output = F64x32;
+
+    #[inline(always)]
+    fn run(self) -> F64x32 {
+        self.map.field(*self.value)
     }
 }
 
@@ -345,6 +433,9 @@ fn left(branch: &Branch, has_say: &dyn Fn(usize) -> bool) -> Option<Branch> {
                 0 | 1 => kept.pop(),
                 _ => Some(Branch::Join(combination.clone(), kept)),
             }
+        }
+        Branch::Placed(map, child) => {
+            left(child, has_say).map(|child| Branch::Placed(*map, Box::new(child)))
         }
     }
 }
@@ -427,7 +518,8 @@ fn joined_reach(combination: &Combination, a: Reach, b: Reach) -> Reach {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::catalogue::{AnyBlend, AnyModifier, AnyPrimitive, Smooth, Sphere, Translate};
+    use crate::catalogue::{AnyBlend, AnyModifier, AnyPrimitive};
+    use crate::catalogue::{Rotate, Scale, Smooth, Sphere, Translate};
     use crate::num::Lanes;
     use crate::num::samples::random;
 
@@ -457,10 +549,28 @@ mod tests {
         let branch = |k: u64| {
             let width = if k.is_multiple_of(2) { 0.0 } else { 0.3 };
             let balls = (0..6).map(|i| ball(seed * 100 + k * 10 + i)).collect();
-            combined(operations[(seed + k) as usize % 3], width, balls)
+            placed(
+                seed + k,
+                combined(operations[(seed + k) as usize % 3], width, balls),
+            )
         };
         let first = operations[seed as usize % 3];
-        combined(first, 0.2, (0..4).map(branch).collect())
+        placed(seed / 4, combined(first, 0.2, (0..4).map(branch).collect()))
+    }
+
+    /// A node moved, turned, scaled, or all of it.
+    fn placed(seed: u64, node: Arc<Node>) -> Arc<Node> {
+        let steps: &[AnyModifier] = &[
+            AnyModifier::Translate(Translate::new(place(seed, 0.2))),
+            AnyModifier::Rotate(Rotate::new(random(seed), [0.6, 0.0, 0.8], 0.0, 0.0, 0.0)),
+            AnyModifier::Scale(Scale::new([0.8 + 0.5 * random(seed); 3])),
+        ];
+        let wanted = match seed % 5 {
+            4 => steps,
+            k => &steps[k.min(3) as usize..(k as usize + 1).min(3)],
+        };
+        let place = |node, step: &AnyModifier| Node::modifier(step.clone(), node).unwrap();
+        wanted.iter().fold(node, place)
     }
 
     #[test]
@@ -468,7 +578,10 @@ mod tests {
         let (mut left, mut all) = (0, 0);
         for seed in 0..60 {
             let node = tree(seed);
-            let thicket = Thicket::new(&node, Level::best(), &|leaf| leaf.lipschitz()).unwrap();
+            let thicket = Thicket::new(&node, Level::best(), Bounds::EVERYWHERE, &|leaf, _| {
+                leaf.lipschitz()
+            })
+            .unwrap();
             let whole = compile_wide::<F64x32>(&node, Level::best());
             let centres: Vec<[f64; 3]> = (0..32).map(|k| place(seed * 64 + k, 2.5)).collect();
             let axis = |axis: usize| Lanes::from_fn(|lane| centres[lane][axis]);
@@ -507,7 +620,8 @@ mod tests {
     fn wrong_constants_are_those_of_the_leaves_too() {
         let width = |factor: f64| {
             let node = tree(1);
-            let thicket = Thicket::new(&node, Level::best(), &|_| 1.0).unwrap();
+            let thicket =
+                Thicket::new(&node, Level::best(), Bounds::EVERYWHERE, &|_, _| 1.0).unwrap();
             let thicket = thicket.with_constants_times(factor);
             let all = |x: f64| Lanes([x; 32]);
             let values = thicket.values(&Vec3::new(all(100.0), all(0.0), all(0.0)));

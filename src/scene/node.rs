@@ -441,15 +441,22 @@ impl Node {
 
     /// The first node below all transforms that keep angles, and what they do together.
     pub fn unplaced(&self) -> (Similarity, &Self) {
-        let (mut map, mut inner) = (Similarity::IDENTITY, self);
+        let (map, inner, _) = self.unplaced_in(Bounds::EVERYWHERE);
+        (map, inner)
+    }
+
+    /// As [`Node::unplaced`], with where it is asked if this one is asked in `region`.
+    pub fn unplaced_in(&self, region: Bounds) -> (Similarity, &Self, Bounds) {
+        let (mut map, mut inner, mut region) = (Similarity::IDENTITY, self, region);
         while let Shape::Modifier(modifier, child) = &inner.shape {
             let Some(step) = with_modifier!(modifier, m => m.similarity()) else {
                 break;
             };
             map = map.then(&step);
             inner = child;
+            region = with_modifier!(modifier, m => m.domain(region));
         }
-        (map, inner)
+        (map, inner, region)
     }
 
     /// A box that holds every point where the field is at most `level >= 0`.

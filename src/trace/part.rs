@@ -249,10 +249,10 @@ impl Marched {
         });
         let is_plain = demands.lanes && !node.has_graph();
         let gradient_wide = is_plain.then(|| compile_convex(node, level));
-        let leaf_constant = |leaf: &Node| leaf.lipschitz_over(region);
+        let leaf_constant = |leaf: &Node, region: Bounds| leaf.lipschitz_over(region);
         // What rests on a claim is sampled, not thinned out: so a claim that is wrong is noticed.
         let is_thinned = demands.lanes && !node.rests_on_claim();
-        let thicket = is_thinned.then(|| Thicket::new(node, level, &leaf_constant));
+        let thicket = is_thinned.then(|| Thicket::new(node, level, region, &leaf_constant));
         Ok(Self {
             gradient_wide,
             gradient_graph: OnceLock::new(),

@@ -74,6 +74,6 @@ declaration::list!($
 declaration::list!($
     /// Any blend of the catalogue.
     AnyBlend, with_blend, with_compiled_blend, with_recorded_blend:
-    Hard, Smooth;
-    recorded Cubic, Circular, Exponential, Chamfer, Fillet, Stairs, Xor, Morph, Pipe, Engrave, Groove, Tongue
+    Hard, Smooth, Cubic, Circular;
+    recorded Exponential, Chamfer, Fillet, Stairs, Xor, Morph, Pipe, Engrave, Groove, Tongue
 );

@@ -33,6 +33,11 @@ impl Blend for Circular {
         compact_reach(level, n, (1.0 - 0.5_f64.sqrt()) * self.k, self.k)
     }
 
+    /// With room for the rounding of the share.
+    fn width(&self) -> Option<f64> {
+        Some(self.k * (1.0 + 4.0 * f64::EPSILON))
+    }
+
     fn is_hard(&self) -> bool {
         self.k == 0.0
     }

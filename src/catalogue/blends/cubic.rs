@@ -33,6 +33,10 @@ impl Blend for Cubic {
         compact_reach(level, n, self.k / 6.0, self.k)
     }
 
+    fn width(&self) -> Option<f64> {
+        Some(self.k)
+    }
+
     fn is_hard(&self) -> bool {
         self.k == 0.0
     }

@@ -6,7 +6,7 @@
 #![allow(unsafe_code)]
 
 use super::Level;
-use crate::catalogue::{Combination, Similarity};
+use crate::catalogue::{AnyModifier, Combination, Similarity};
 use crate::num::{Number, Vec3};
 use crate::scene::{Graph, Node};
 use std::sync::Arc;
@@ -106,6 +106,24 @@ fn at_level<N: Number, const GRAPHS: bool>(node: &Node, level: Level) -> Closure
     }
 }
 
+/// The closure of what a modifier makes of a closure that was compiled for `level`; none where it is a graph for such
+/// numbers.
+pub fn modify<N: Number>(
+    modifier: &AnyModifier,
+    child: Closure<N>,
+    level: Level,
+) -> Option<Closure<N>> {
+    match level.min(Level::supported()) {
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: `Level::supported` has detected every feature of the module.
+        Level::Avx512 => unsafe { avx512::modifying(modifier, child) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Level::Avx2 => unsafe { avx2::modifying(modifier, child) },
+        _ => baseline::modifying(modifier, child),
+    }
+}
+
 /// The closure of what `map` places, given its own that was compiled for `level`.
 pub fn place<N: Number>(child: Closure<N>, map: Similarity, level: Level) -> Closure<N> {
     match level.min(Level::supported()) {
@@ -146,7 +164,7 @@ macro_rules! builders {
     ($(#[$feature:meta])* mod $level:ident; whole: $whole:literal) => {
         mod $level {
             use super::{Closure, FEW_REGISTERS, MANY_REGISTERS, SOME_REGISTERS, Walked};
-            use crate::catalogue::{AnyPrimitive, Blend, Combination, Modifier, Operation, Primitive, Similarity};
+            use crate::catalogue::{AnyModifier, AnyPrimitive, Blend, Combination, Modifier, Operation, Primitive, Similarity};
             use crate::catalogue::{with_blend, with_compiled_blend, with_compiled_modifier, with_compiled_primitive};
             use crate::catalogue::{with_modifier, with_primitive};
             use crate::num::{Number, Vec3};
@@ -188,14 +206,7 @@ macro_rules! builders {
                         let children = children.iter().map(|c| build::<N, GRAPHS>(c)).collect();
                         combined(combination, children)
                     }
-                    Shape::Modifier(modifier, child) => {
-                        let child = build::<N, GRAPHS>(child);
-                        if is_whole::<N>() {
-                            Some(with_modifier!(modifier, m => modified(m.clone(), child)))
-                        } else {
-                            with_compiled_modifier!(modifier, m => modified(m.clone(), child))
-                        }
-                    }
+                    Shape::Modifier(modifier, child) => modifying(modifier, build::<N, GRAPHS>(child)),
                     Shape::Displacement(_) => None,
                 };
                 // Not a number: a walk that meets it ends as unknown.
@@ -229,6 +240,16 @@ macro_rules! builders {
                     return Arc::new(move |p: &Vec3<N>| child(&(*p + Vec3::splat(shift))));
                 }
                 Arc::new(move |p: &Vec3<N>| child(&map.point(p)) * scale)
+            }
+
+            /// The closure of what a modifier makes of a closure that is there already.
+            $(#[$feature])*
+            pub(super) fn modifying<N: Number>(modifier: &AnyModifier, child: Closure<N>) -> Option<Closure<N>> {
+                if is_whole::<N>() {
+                    Some(with_modifier!(modifier, m => modified(m.clone(), child)))
+                } else {
+                    with_compiled_modifier!(modifier, m => modified(m.clone(), child))
+                }
             }
 
             $(#[$feature])*

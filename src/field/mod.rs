@@ -9,8 +9,8 @@ mod processor;
 mod thicket;
 
 pub use compile::{
-    Closure, Task, Walked, combine, compile, compile_convex, compile_graph, compile_wide, place,
-    run_at,
+    Closure, Task, Walked, combine, compile, compile_convex, compile_graph, compile_wide, modify,
+    place, run_at,
 };
 pub use governor::governor;
 pub use gradient::normal;

@@ -5,9 +5,9 @@
 //! the same without it, to the bit, at every point of the ball; and so with signs for intersections and differences.
 //! Sources: the value rule of Barbier et al. 2025, with the constant of each child instead of 1; ranges as in Keeter 2025.
 
-use super::{Closure, Level, Task, combine, compile_convex, compile_wide, place, run_at};
+use super::{Closure, Level, Task, combine, compile_convex, compile_wide, modify, place, run_at};
 use crate::catalogue::with_compiled_blend;
-use crate::catalogue::{Bounds, Combination, Operation, Similarity};
+use crate::catalogue::{AnyModifier, Bounds, Combination, Modifier, Operation, Similarity};
 use crate::num::{Dual, F32x32, F64x16, F64x32, Number, Vec3};
 use crate::scene::{Node, Shape};
 use std::sync::Arc;
@@ -27,12 +27,14 @@ struct Leaf {
     lipschitz: f64,
 }
 
-/// A tree of combinations, some of them placed, over leaves, by number.
+/// A tree of combinations, some of them placed or with changed values, over leaves, by number.
 #[derive(Clone, Debug, PartialEq)]
 enum Branch {
     Leaf(usize),
     Join(Arc<Combination>, Vec<Branch>),
     Placed(Similarity, Box<Branch>),
+    /// By an offset or a shell, which change the values alone.
+    Changed(Arc<AnyModifier>, Box<Branch>),
 }
 
 impl Branch {
@@ -41,7 +43,7 @@ impl Branch {
         match self {
             Self::Leaf(number) => *number,
             Self::Join(_, children) => children[0].first(),
-            Self::Placed(_, child) => child.first(),
+            Self::Placed(_, child) | Self::Changed(_, child) => child.first(),
         }
     }
 
@@ -50,7 +52,7 @@ impl Branch {
         match self {
             Self::Leaf(number) => number + 1,
             Self::Join(_, children) => children.last().map_or(0, Self::end),
-            Self::Placed(_, child) => child.end(),
+            Self::Placed(_, child) | Self::Changed(_, child) => child.end(),
         }
     }
 }
@@ -182,6 +184,7 @@ impl Thicket {
                 let inside = run_at(self.level, Inside { map, points });
                 self.add_values(child, &inside, values);
             }
+            Branch::Changed(_, child) => self.add_values(child, points, values),
         }
     }
 
@@ -222,6 +225,10 @@ impl Thicket {
                 let inner = *radii * F64x32::splat((1.0 + 1e-9) / scale);
                 let reach = self.sift(child, values, (&inner, noise / scale), says);
                 return reach.times(scale);
+            }
+            Branch::Changed(modifier, child) => {
+                let reach = self.sift(child, values, (radii, noise), says);
+                return run_at(self.level, Range { modifier, reach });
             }
             Branch::Join(combination, children) => (combination, children),
         };
@@ -286,6 +293,10 @@ impl Thicket {
                     .expect("a thicket has compiled blends alone")
             }
             Branch::Placed(map, child) => place(self.closure(child, leaf), *map, self.level),
+            Branch::Changed(modifier, child) => {
+                modify(modifier, self.closure(child, leaf), self.level)
+                    .expect("offsets and shells are compiled")
+            }
         }
     }
 }
@@ -293,18 +304,46 @@ impl Thicket {
 /// The tree of a node that is asked in `region`; `leaf` numbers what is not taken apart, with what is asked of it.
 fn branch(node: &Node, region: Bounds, leaf: &mut dyn FnMut(&Node, Bounds) -> usize) -> Branch {
     let (map, inner, inside) = node.unplaced_in(region);
-    let Shape::Combination(combination, children) = inner.shape() else {
-        return Branch::Leaf(leaf(node, region));
+    let inner = match inner.shape() {
+        Shape::Combination(combination, children) if can_thin(combination) => {
+            let children = children.iter().map(|child| branch(child, inside, leaf));
+            Branch::Join(Arc::new(combination.clone()), children.collect())
+        }
+        Shape::Modifier(modifier, child) if is_change(modifier) && falls_apart(child) => {
+            let child = branch(child, inside, leaf);
+            Branch::Changed(Arc::new(modifier.clone()), Box::new(child))
+        }
+        _ => return Branch::Leaf(leaf(node, region)),
     };
-    if !can_thin(combination) {
-        return Branch::Leaf(leaf(node, region));
-    }
-    let children = children.iter().map(|child| branch(child, inside, leaf));
-    let join = Branch::Join(Arc::new(combination.clone()), children.collect());
     if map == Similarity::IDENTITY {
-        join
+        inner
     } else {
-        Branch::Placed(map, Box::new(join))
+        Branch::Placed(map, Box::new(inner))
+    }
+}
+
+/// Whether a node is not a single leaf.
+fn falls_apart(node: &Node) -> bool {
+    match node.unplaced().1.shape() {
+        Shape::Combination(combination, _) => can_thin(combination),
+        Shape::Modifier(modifier, child) => is_change(modifier) && falls_apart(child),
+        _ => false,
+    }
+}
+
+/// Whether a modifier changes the values alone.
+fn is_change(modifier: &AnyModifier) -> bool {
+    matches!(modifier, AnyModifier::Offset(_) | AnyModifier::Shell(_))
+}
+
+/// What such a modifier makes of a value.
+#[inline(always)]
+fn changed(modifier: &AnyModifier, value: F64x32) -> F64x32 {
+    let nowhere = Vec3::splat([0.0; 3]);
+    match modifier {
+        AnyModifier::Offset(offset) => offset.apply(&nowhere, |_| value),
+        AnyModifier::Shell(shell) => shell.apply(&nowhere, |_| value),
+        _ => value,
     }
 }
 
@@ -319,7 +358,7 @@ fn count(branch: &Branch) -> usize {
     match branch {
         Branch::Leaf(_) => 1,
         Branch::Join(_, children) => children.iter().map(count).sum(),
-        Branch::Placed(_, child) => count(child),
+        Branch::Placed(_, child) | Branch::Changed(_, child) => count(child),
     }
 }
 
@@ -345,6 +384,52 @@ fn joined(branch: &Branch, values: &[F64x32], level: Level) -> F64x32 {
         Branch::Placed(map, child) => {
             let value = &joined(child, values, level);
             run_at(level, Outside { map, value })
+        }
+        Branch::Changed(modifier, child) => {
+            let value = &joined(child, values, level);
+            run_at(level, Changing { modifier, value })
+        }
+    }
+}
+
+/// Changes values.
+struct Changing<'a> {
+    modifier: &'a AnyModifier,
+    value: &'a F64x32,
+}
+
+impl Task for Changing<'_> {
+    type Output = F64x32;
+
+    #[inline(always)]
+    fn run(self) -> F64x32 {
+        changed(self.modifier, *self.value)
+    }
+}
+
+/// Finds what changed values reach to.
+struct Range<'a> {
+    modifier: &'a AnyModifier,
+    reach: Reach,
+}
+
+impl Task for Range<'_> {
+    type Output = Reach;
+
+    #[inline(always)]
+    fn run(self) -> Reach {
+        let Reach { mut low, mut high } = self.reach;
+        if matches!(self.modifier, AnyModifier::Shell(_)) {
+            let (least, most) = (low.abs().min(high.abs()), low.abs().max(high.abs()));
+            let zero = F64x32::splat(0.0);
+            // Where both signs are there, so is zero.
+            low = F64x32::select_lt(low * high, zero, zero, least);
+            high = most;
+        }
+        // The field is rounded as they are, and rounding keeps order.
+        Reach {
+            low: changed(self.modifier, low),
+            high: changed(self.modifier, high),
         }
     }
 }
@@ -437,6 +522,9 @@ fn left(branch: &Branch, has_say: &dyn Fn(usize) -> bool) -> Option<Branch> {
         Branch::Placed(map, child) => {
             left(child, has_say).map(|child| Branch::Placed(*map, Box::new(child)))
         }
+        Branch::Changed(modifier, child) => {
+            left(child, has_say).map(|child| Branch::Changed(modifier.clone(), Box::new(child)))
+        }
     }
 }
 
@@ -518,8 +606,8 @@ fn joined_reach(combination: &Combination, a: Reach, b: Reach) -> Reach {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::catalogue::{AnyBlend, AnyModifier, AnyPrimitive};
-    use crate::catalogue::{Rotate, Scale, Smooth, Sphere, Translate};
+    use crate::catalogue::{AnyBlend, AnyPrimitive, Circular, Cubic, Smooth, Sphere};
+    use crate::catalogue::{Offset, Rotate, Scale, Shell, Translate};
     use crate::num::Lanes;
     use crate::num::samples::random;
 
@@ -535,7 +623,12 @@ mod tests {
     }
 
     fn combined(operation: Operation, width: f64, nodes: Vec<Arc<Node>>) -> Arc<Node> {
-        let blend = AnyBlend::Smooth(Smooth::new(width)).simplified();
+        let blend = match nodes.len() {
+            6 => AnyBlend::Smooth(Smooth::new(width)),
+            5 => AnyBlend::Cubic(Cubic::new(width)),
+            _ => AnyBlend::Circular(Circular::new(width)),
+        };
+        let blend = blend.simplified();
         Node::combination(Combination { operation, blend }, nodes).unwrap()
     }
 
@@ -548,7 +641,8 @@ mod tests {
         ];
         let branch = |k: u64| {
             let width = if k.is_multiple_of(2) { 0.0 } else { 0.3 };
-            let balls = (0..6).map(|i| ball(seed * 100 + k * 10 + i)).collect();
+            let balls = (0..4 + seed % 3).map(|i| ball(seed * 100 + k * 10 + i));
+            let balls = balls.collect();
             placed(
                 seed + k,
                 combined(operations[(seed + k) as usize % 3], width, balls),
@@ -558,16 +652,18 @@ mod tests {
         placed(seed / 4, combined(first, 0.2, (0..4).map(branch).collect()))
     }
 
-    /// A node moved, turned, scaled, or all of it.
+    /// A node moved, turned, scaled, grown, made hollow, or all of it.
     fn placed(seed: u64, node: Arc<Node>) -> Arc<Node> {
         let steps: &[AnyModifier] = &[
             AnyModifier::Translate(Translate::new(place(seed, 0.2))),
             AnyModifier::Rotate(Rotate::new(random(seed), [0.6, 0.0, 0.8], 0.0, 0.0, 0.0)),
             AnyModifier::Scale(Scale::new([0.8 + 0.5 * random(seed); 3])),
+            AnyModifier::Offset(Offset::new(0.1 * random(seed))),
+            AnyModifier::Shell(Shell::new(0.1 + 0.1 * random(seed))),
         ];
-        let wanted = match seed % 5 {
-            4 => steps,
-            k => &steps[k.min(3) as usize..(k as usize + 1).min(3)],
+        let wanted = match seed % 7 {
+            6 => steps,
+            k => &steps[k as usize..(k as usize + 1).min(5)],
         };
         let place = |node, step: &AnyModifier| Node::modifier(step.clone(), node).unwrap();
         wanted.iter().fold(node, place)

@@ -182,7 +182,7 @@ fn film_and_counts_do_not_depend_on_threads_or_tiles() {
     let mut scene = scene(1.0);
     scene.settings.samples = 2;
     let reference = rendered(&scene, &everything());
-    for (threads, tile) in [(1, 64), (2, 64), (3, 64), (1, 16), (2, 17), (3, 1)] {
+    for (threads, tile) in [(1, 64), (2, 64), (3, 64), (7, 16), (1, 16), (2, 17), (3, 1)] {
         let other = rendered(
             &scene,
             &RenderOptions {

@@ -5,6 +5,7 @@
 //! Every figure of the document comes from this run or from the file of the peers' figures, measured on the same machine.
 
 mod accuracy;
+mod changed;
 mod evaluation;
 mod growth;
 mod instructions;
@@ -57,6 +58,7 @@ fn main() -> Outcome<()> {
     text.push_str(&pictures::section(&options, &pictures, &peers, &errors));
     text.push_str(&accuracy::section(&options, &errors, &peers)?);
     text.push_str(&pictures::threads(&pictures));
+    text.push_str(&changed::section(&options)?);
     text.push_str(&growth::section(&options)?);
     text.push_str(&evaluation::section(&peers)?);
     text.push_str(&start::section(&options)?);
@@ -73,7 +75,17 @@ fn notes() -> String {
 }
 
 fn introduction(options: &Options, peers: &Peers) -> String {
-    let rounds = options.rounds;
+    let Options {
+        rounds,
+        width,
+        accuracy_width,
+        ..
+    } = options;
+    let wide = if *width == 1280 {
+        String::new()
+    } else {
+        format!(" --width {width}")
+    };
     format!(
         "# Performance
 
@@ -81,7 +93,7 @@ Measured on {}, {}, in {rounds} rounds of each picture, by
 
 ```
 cargo build --release
-cargo run --release --example performance -- --peers peers.csv
+cargo run --release --example performance -- --peers peers.csv --rounds {rounds} --accuracy-width {accuracy_width}{wide}
 ```
 
 Times are the median of the rounds, with the smallest and the one that three quarters don't exceed; ratios to peers take the \

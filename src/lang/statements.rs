@@ -288,6 +288,13 @@ impl<'a> Machine<'a> {
         let words = self.program.sources.text(range.span).to_string();
         let message = format!("`{}` must be in {words}", parameter.name.text);
         let error = Diagnostic::error(at, message).label(value.shown());
+        let error = match (&allowed, value) {
+            // A list of two numbers is easily taken for a range.
+            (Value::Vector2(_), Value::Number(_)) => error.help(
+                "a list has all values that are allowed; for those between two, write `0..=1`",
+            ),
+            _ => error,
+        };
         self.fail(match at.file == parameter.name.span.file {
             true => error,
             false => error.note(parameter.name.span, "the parameter"),

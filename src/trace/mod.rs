@@ -6,6 +6,7 @@
 //! (`method`). What a ray finds depends neither on the rays it is traced with nor on the number of threads.
 
 pub mod analytic;
+mod apart;
 mod beam;
 mod bits;
 mod bundle;

@@ -1,6 +1,7 @@
 //! The parts of a world: what a hard union at the root falls apart into.
 
 use super::analytic::{Ball, Block, Facet, HalfSpace, Pane};
+use super::apart;
 use super::cut::Cut;
 use super::evidence::Evidence;
 use super::method::{Demands, Reach};
@@ -382,6 +383,23 @@ pub fn flatten(node: &Arc<Node>) -> Vec<Arc<Node>> {
             },
             children,
         ) if blend.is_hard() => children.iter().flat_map(flatten).map(inherit).collect(),
+        Shape::Combination(combination, children) => {
+            let Some(groups) = apart::groups(combination, children) else {
+                return vec![node.clone()];
+            };
+            let united = |mut group: Vec<Arc<Node>>| match group.len() {
+                1 => Ok(group.remove(0)),
+                _ => Node::combination(combination.clone(), group),
+            };
+            match groups
+                .into_iter()
+                .map(united)
+                .collect::<Result<Vec<_>, _>>()
+            {
+                Ok(groups) => groups.iter().flat_map(flatten).map(inherit).collect(),
+                Err(_) => vec![node.clone()],
+            }
+        }
         Shape::Field(field) if field.claimed.is_none() => match field.graph.parts() {
             Parts::Least(parts) => match of_field(field, parts) {
                 Some(parts) => parts.into_iter().map(inherit).collect(),

@@ -191,7 +191,7 @@ impl World {
             *enter = -1.0;
         }
         met.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let is_told = scratch.descent.met.len() > SOME;
+        let is_told = self.prunes && scratch.descent.met.len() > SOME;
         if is_told {
             let Scratch { cones, bundle, .. } = &mut *scratch;
             run_at(self.level, Gather { cones, bundle });

@@ -16,6 +16,7 @@ use super::part::{Marched, Part, PartKind, flatten};
 use super::survey::{resolved, survey};
 use super::sweep::Question;
 use super::{Occlusion, Occlusions, Outcome, Outcomes, Ray, RayColumns, Rays, Verdict};
+use crate::catalogue::Bounds;
 use crate::field::{Brush, Level, Share, normal, run_at, shares};
 use crate::num::Rows;
 use crate::scene::{Fault, Material, Method, Node, Scene, Settings, Shadow};
@@ -62,8 +63,9 @@ pub struct World {
     pub(super) horizon: f64,
     /// Whether any part is a combination that is thinned out.
     pub(super) is_thinned: bool,
-    /// Whether beams that meet nothing are told: not by what is to judge those that are, nor where nothing is to be passed over.
-    pub(super) tells_empty: bool,
+    /// Whether rays are spared what their beam or cone misses: not by what is to judge the others, nor where nothing is to be
+    /// passed over.
+    pub(super) prunes: bool,
     /// The instructions that lanes use.
     pub(super) level: Level,
 }
@@ -148,7 +150,7 @@ impl World {
             settings,
             horizon: reach,
             is_thinned: parts.iter().any(Part::is_thinned),
-            tells_empty: settings.method != Method::Reference,
+            prunes: settings.method != Method::Reference,
             level,
             parts,
         }
@@ -203,17 +205,28 @@ impl World {
     /// Whether one of the rays of a beam, however far it is followed, may meet anything. Where it says no, none does; the
     /// reference never does.
     pub fn may_meet(&self, beam: &Beam) -> bool {
-        if !self.tells_empty {
+        if !self.prunes {
             return true;
         }
         let hierarchy = &self.hierarchy;
         self.endless_met(beam).next().is_some() || run_at(self.level, Meets { hierarchy, beam })
     }
 
+    /// A box around the only part there is, if it is a convex solid; none for methods whose hits are only near a surface, so that
+    /// what they find on it may be in its own way.
+    pub fn lone_convex(&self) -> Option<Bounds> {
+        let [part] = &self.parts[..] else {
+            return None;
+        };
+        let traits = part.node.traits();
+        let is_solid = traits.is_convex && !traits.is_sheet;
+        (is_solid && self.settings.method == Method::Auto).then_some(part.bounds)
+    }
+
     /// The parts without an end that one of the rays of a beam may meet.
     pub(super) fn endless_met(&self, beam: &Beam) -> impl Iterator<Item = u32> {
         let may_meet = |number: &u32| match &self.parts[*number as usize].kind {
-            PartKind::HalfSpace(half) => beam.may_meet(half),
+            PartKind::HalfSpace(half) if self.prunes => beam.may_meet(half),
             _ => true,
         };
         self.endless.iter().copied().filter(may_meet)
@@ -328,6 +341,16 @@ impl World {
     /// How many parts there are.
     pub fn parts(&self) -> usize {
         self.parts.len()
+    }
+
+    /// How many of them have no finite bounds.
+    pub fn endless_parts(&self) -> usize {
+        self.endless.len()
+    }
+
+    /// Whether rays are spared what their beam misses.
+    pub fn prunes(&self) -> bool {
+        self.prunes && self.settings.method == Method::Auto
     }
 
     /// How rays find each part, in words: its own path where the method has several, else the method's name.

@@ -6,8 +6,13 @@
 //! is doubted afterwards: between two values a and b of one sign there is no root if |a| + |b| >= lambda times the
 //! distance; else it is halved until that holds, a root appears, or a budget ends: then the walk ends as unknown, and so it
 //! does where a field changes faster than lambda allows, which refutes its constant. A field that is never negative is
-//! followed by Hart's steps until nothing but rounding is left of it. Sources: Hart 1996; bracketing after Dowell and Jarratt 1971; the
-//! two-sided test as in POV-Ray's isosurfaces.
+//! followed by Hart's steps until nothing but rounding is left of it.
+//!
+//! Guarantees: where lambda is right, no changes of sign farther apart than rounding are passed over, and a hit is one,
+//! enclosed to rounding; where two samples refute lambda, the ray is unknown. Does not: where doubts or steps run out, it stays
+//! unknown, for ranges to decide.
+//!
+//! Sources: Hart 1996; bracketing after Dowell and Jarratt 1971; the two-sided test as in POV-Ray's isosurfaces.
 
 use super::{Ending, Segment, Walk};
 use crate::trace::Verdict;

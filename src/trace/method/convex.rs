@@ -4,6 +4,10 @@
 //! never behind the surface, and where the slope is not negative the ray never meets it. Convergence is quadratic, and
 //! a ray that leaves a surface knows so after one step. A ray that starts inside comes back from the end of its segment,
 //! where it is outside again, in the same way. Source: forward inclusion by tangents, Aydinlilar and Zanni 2023.
+//!
+//! Guarantees: nothing is passed over, whatever the constant, where the field is convex and its derivative right; a hit is
+//! known to rounding, and a miss is a slope that does not fall, or the end of the segment. Does not: in a corner where rounding
+//! hides which way the field rises, or where steps run out, the answer is unknown.
 
 use super::{Certified, Ending, Segment, Walk};
 use crate::trace::Verdict;

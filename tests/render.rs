@@ -306,10 +306,19 @@ fn no_convex_shape_shadows_itself() {
             let a = f64::from(degrees).to_radians();
             let toward = DVec3::new(a.sin(), 0.0, a.cos());
             let mut scene = lone_ball(Projection::Orthographic { height: 2.4 });
-            scene.shown = vec![shape.painted(matt.clone())];
+            // Of one part alone no shadow rays would be traced.
+            let grain = sphere(1e-3, [100.0, 0.0, 0.0]);
+            scene.shown = vec![shape.painted(matt.clone()), grain];
             scene.lights[0].source = Source::Directional { toward };
             scene.settings.method = method;
-            let film = rendered(&scene, &everything()).film;
+            let both = rendered(&scene, &everything());
+            assert!(both.statistics.rays.shadow > 0);
+            let film = both.film;
+            scene.shown.pop();
+            let alone = rendered(&scene, &everything());
+            let is_spared = method == Method::Auto;
+            assert_eq!(alone.statistics.rays.shadow == 0, is_spared);
+            assert_eq!(alone.film.planes()[0], film.planes()[0]);
             for (i, j) in (0..101).flat_map(|i| (0..101).map(move |j| (i, j))) {
                 if at(&film, Channel::Verdict, i, j) != 1.0 {
                     continue;

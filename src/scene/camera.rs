@@ -1,5 +1,6 @@
 //! The camera: which ray belongs to which place of the picture.
 
+use crate::catalogue::Bounds;
 use glam::DVec3;
 
 /// How the camera sees.
@@ -46,6 +47,26 @@ impl Camera {
             .screen
             .unwrap_or([half_height * columns / rows, half_height]);
         [2.0 * s / columns, 2.0 * t / rows]
+    }
+
+    /// Whether all rays start outside of a box, which is finite.
+    pub fn is_outside(&self, bounds: &Bounds) -> bool {
+        let (low, high) = (
+            DVec3::from_array(bounds.low),
+            DVec3::from_array(bounds.high),
+        );
+        match self.projection {
+            Projection::Perspective { .. } => {
+                self.eye.cmplt(low).any() || self.eye.cmpgt(high).any()
+            }
+            // Rays start on a plane, which the box has to lie before.
+            Projection::Orthographic { .. } => {
+                let forward = self.at - self.eye;
+                let nearest = (low - self.eye) * forward;
+                let nearest = nearest.min((high - self.eye) * forward);
+                nearest.element_sum() > 0.0
+            }
+        }
     }
 }
 

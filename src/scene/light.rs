@@ -49,3 +49,10 @@ pub struct Light {
     /// Its colour times its intensity, linear RGB.
     pub radiance: DVec3,
 }
+
+impl Light {
+    /// Whether it is not black.
+    pub fn shines(&self) -> bool {
+        self.radiance != DVec3::ZERO
+    }
+}

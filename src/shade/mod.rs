@@ -24,6 +24,7 @@ mod surfaces;
 mod wave;
 mod whitted;
 
+pub use attenuation::sight;
 pub use census::{Census, Tracing};
 pub use features::Features;
 pub use fresnel::reflected_share;

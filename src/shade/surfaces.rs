@@ -1,5 +1,6 @@
 //! What shading asks of the world.
 
+use crate::catalogue::Bounds;
 use crate::scene::Material;
 use crate::trace::{Beam, Occlusions, Outcomes, Paint, RayColumns, Rays, Visibility, World};
 use glam::DVec3;
@@ -18,6 +19,12 @@ pub trait Surfaces: Sync {
     /// Whether one of the rays of a beam, however far it is followed, may meet anything: it may always be said that it may.
     fn may_meet(&self, _beam: &Beam) -> bool {
         true
+    }
+
+    /// A box around the only solid there is, if it is convex and no light that falls on it from outside is ever found to be
+    /// blocked by it.
+    fn lone_convex(&self) -> Option<Bounds> {
+        None
     }
 
     /// The materials at a point of the surface of `part`, with their shares.
@@ -52,6 +59,10 @@ impl Surfaces for World {
 
     fn may_meet(&self, beam: &Beam) -> bool {
         Self::may_meet(self, beam)
+    }
+
+    fn lone_convex(&self) -> Option<Bounds> {
+        Self::lone_convex(self)
     }
 
     fn paints(&self, part: u32, point: DVec3) -> Vec<Paint<'_>> {

@@ -202,11 +202,12 @@ impl Task for Above<'_> {
 impl<'a, S: Surfaces + ?Sized> Whitted<'a, S> {
     /// The pipeline for the light and the settings of `scene` on these `surfaces`.
     pub fn new(scene: &Scene, surfaces: &'a S) -> Self {
-        let features = Features::new(scene, surfaces.materials());
+        let features = Features::new(scene, surfaces);
+        let lamps = scene.lights.iter().filter(|light| light.shines());
         Self {
             surfaces,
             features,
-            lamps: scene.lights.iter().copied().map(Lamp::new).collect(),
+            lamps: lamps.copied().map(Lamp::new).collect(),
             sky: scene.sky,
             fog: scene.fog.filter(|_| features.fog),
             depth: scene.settings.depth,

@@ -514,6 +514,47 @@ fn explain_tells_what_is_known() {
     );
     assert!(told["features"].as_array().is_some_and(|f| !f.is_empty()));
     assert!(told["processor"].is_string());
+    assert!(told["passed_over"].as_array().is_some_and(|p| p.len() > 3));
+}
+
+#[test]
+fn explain_tells_what_is_passed_over() {
+    let folder = Folder::with_scene("passed");
+    let passed = |script: &str| {
+        folder.write("passed.sdf", script);
+        let answer = folder.run(&["explain", "passed.sdf"]).expect(0);
+        let (_, passed) = answer.out.split_once("passed over\n").expect("a section");
+        passed.to_owned()
+    };
+    let all = passed(
+        "show box([1, 1, 1]).rotate(y: 20deg).scale(2).translate([0, 2, 0])\n\
+         material tin { reflect: 0.5 }\nshow plane(\"y\", 0).paint(tin)\n\
+         light { toward: [1, 2, 1] } light { toward: [0, 1, 0], intensity: 0 }\n\
+         fog { color: #fff, density: 0.1 } render { depth: 3 }",
+    );
+    for words in [
+        "3 transforms in a row, folded into 1 map",
+        "none of 1 bounded part and of 1 endless part: the sky",
+        "1 light: black",
+        "less than 1/512",
+        "deeper than 3",
+        // 12 ln 2 / 0.1
+        "farther than 83.178",
+    ] {
+        assert!(all.contains(words), "{words}: {all}");
+    }
+    assert!(
+        !all.contains("convex") && !all.contains("hierarchy"),
+        "{all}"
+    );
+    let lone = passed("show ellipsoid([1, 2, 1]) light { toward: [1, 2, 1] }");
+    assert!(lone.contains("the only solid is convex"), "{lone}");
+    let published =
+        passed("show sphere(1) light { toward: [1, 2, 1] } render { method: \"sphere\" }");
+    assert!(
+        !published.contains("blocks") && !published.contains("convex"),
+        "{published}"
+    );
 }
 
 #[test]

@@ -4,10 +4,10 @@ use super::console::{answer, counted};
 use super::failure::Failure;
 use super::outline::{bounds_in_words, object_name, short};
 use super::script::{Script, compile};
-use crate::catalogue::{Bounds, Combination, Operation};
+use crate::catalogue::{Bounds, Combination, Modifier, Operation, with_modifier};
 use crate::field::Level;
-use crate::scene::{Node, Scene, Shape, sampled_supremum};
-use crate::shade::Features;
+use crate::scene::{Node, Scene, Shadow, Shape, sampled_supremum};
+use crate::shade::{FAINTEST, Features, sight};
 use crate::trace::World;
 use clap::Args;
 use serde_json::{Value, json};
@@ -27,8 +27,8 @@ const AFTER_HELP: &str = "\
 For each shape: what it is and its name; its class (exact: the field is the distance; bound: at most the distance; \
 lipschitz: at most the distance times the constant); a Lipschitz constant of its field; where that holds (everywhere, \
 or on the bounds); the steepest slope that sampling found there; the slack, which is constant / slope; a box that \
-holds the shape. Then the rule behind each constant, how rays find the parts of the scene, and which features it \
-compiled in: what a scene does not use costs nothing.
+holds the shape. Then the rule behind each constant, how rays find the parts of the scene, which features it \
+compiled in, and what is passed over because nothing of it is seen: what a scene does not use costs nothing.
 
 Large trees are cut; --json has all of it, up to 100 000 nodes.
 
@@ -74,8 +74,93 @@ fn in_words(scene: &Scene, world: Option<&World>) -> String {
             text.push_str(&format!("  {word}\n"));
         }
         text.push_str(&format!("  closures for {}\n", Level::best().name()));
+        let savings = savings(scene, world);
+        if !savings.is_empty() {
+            text.push_str("\npassed over\n");
+        }
+        for saving in savings {
+            text.push_str(&format!("  {saving}\n"));
+        }
     }
     text
+}
+
+/// What is passed over on the way to the picture, and why that changes nothing that is seen, in words.
+fn savings(scene: &Scene, world: &World) -> Vec<String> {
+    let features = Features::new(scene, world);
+    let mut found = Vec::new();
+    let (placed, folded) = folds(&scene.shown);
+    if placed > folded {
+        let maps = counted(folded, "map");
+        found.push(format!("{placed} transforms in a row, folded into {maps}"));
+    }
+    if world.prunes() {
+        found.extend(pruned_in_words(world));
+    }
+    if features.lit {
+        let dark = scene.lights.iter().filter(|light| !light.shines()).count();
+        if dark > 0 {
+            found.push(format!("{}: black", counted(dark, "light")));
+        }
+        found.push("lights behind a surface, and shadow rays to them".into());
+        let is_blocked = features.opaque_shadows || features.tinted_shadows;
+        if !is_blocked && world.materials().iter().any(|m| m.shadow != Shadow::None) {
+            found.push("all shadow rays: the only solid is convex".into());
+        }
+    }
+    if features.reflects {
+        let least = (1.0 / FAINTEST).round();
+        found.push(format!("rays that weigh less than 1/{least}"));
+        let depth = scene.settings.depth;
+        found.push(format!("rays deeper than {depth}"));
+    }
+    if let Some(fog) = scene.fog.filter(|_| features.fog) {
+        let far = short(sight(&fog));
+        found.push(format!(
+            "what lies farther than {far}: less than 1/4096 of its light passes the fog"
+        ));
+    }
+    found
+}
+
+/// How many transforms that keep angles there are below one another, and into how many maps they are folded.
+fn folds(nodes: &[Arc<Node>]) -> (usize, usize) {
+    let (mut placed, mut folded) = (0, 0);
+    let mut open: Vec<(&Arc<Node>, usize)> = nodes.iter().map(|node| (node, 0)).collect();
+    while let Some((node, above)) = open.pop() {
+        let keeps_angles = match node.shape() {
+            Shape::Modifier(modifier, _) => with_modifier!(modifier, m => m.similarity()).is_some(),
+            _ => false,
+        };
+        let here = if keeps_angles { above + 1 } else { 0 };
+        if !keeps_angles && above > 1 {
+            placed += above;
+            folded += 1;
+        }
+        open.extend(node.children().iter().map(|child| (child, here)));
+    }
+    (placed, folded)
+}
+
+/// What beams spare rays, in words.
+fn pruned_in_words(world: &World) -> Vec<String> {
+    let boxes = world.parts() - world.endless_parts();
+    let mut found = Vec::new();
+    if boxes > 0 {
+        let all = counted(boxes, "bounded part");
+        let mut meet = format!("blocks of 16 x 16 pixels that meet none of {all}");
+        if world.endless_parts() > 0 {
+            let endless = counted(world.endless_parts(), "endless part");
+            meet.push_str(&format!(" and of {endless}"));
+        }
+        found.push(format!("{meet}: the sky"));
+    }
+    if boxes > 1 {
+        found.push(format!(
+            "parts that the beam of 256 rays, or the cone of 32, misses: a hierarchy of {boxes} boxes"
+        ));
+    }
+    found
 }
 
 /// A line of the tree.
@@ -272,7 +357,7 @@ fn paths_in_words(world: &World) -> String {
 }
 
 fn features(scene: &Scene, world: &World) -> Vec<&'static str> {
-    Features::new(scene, world.materials()).words()
+    Features::new(scene, world).words()
 }
 
 /// All of it for programs.
@@ -293,6 +378,7 @@ fn to_json(scene: &Scene, world: Option<&World>) -> Value {
             .collect();
         value["parts"] = json!(parts);
         value["features"] = json!(features(scene, world));
+        value["passed_over"] = json!(savings(scene, world));
         value["processor"] = json!(Level::best().name());
     }
     value

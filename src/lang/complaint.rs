@@ -213,6 +213,11 @@ fn statement_wanted(
     if after.starts_with('=') && !after.starts_with("==") {
         return error.help(format!("names are given once, with `let {found} = ...`"));
     }
+    if ["for", "if"].contains(&found) {
+        return error.help(format!(
+            "`{found}` is an expression: `let` names what it gives, `show` shows it"
+        ));
+    }
     match nearest(found, STATEMENT_WORDS) {
         Some(word) => error.help(format!("did you mean `{word}`?")),
         None => error.help("a statement starts with a word, as in `show sphere(1)`"),
@@ -241,6 +246,9 @@ fn remedy(found: &str, positives: &[Rule]) -> Option<String> {
             "write `==` to compare, `:` to name an argument"
         }
         "else" => "write `if condition { a } else { b }`",
+        "{" if positives.contains(&Rule::quantity) => {
+            "braces hold the terms of a statement, which has a name: `material tin { reflect: 0.5 }`, then `.paint(tin)`"
+        }
         "return" | "let" if positives.contains(&Rule::close_brace) => {
             "a block is one expression, or `let`s followed by `return` and an expression"
         }

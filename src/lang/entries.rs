@@ -175,7 +175,7 @@ impl<'a> Machine<'a> {
         is_planar: bool,
     ) -> Eval<Argument> {
         let Some(argument) = converted(&given.value, parameter, is_planar) else {
-            return self.wrong_kind(entry, parameter, given);
+            return self.wrong_kind(entry, parameter, given, is_planar);
         };
         let is_endless = |x: &f64| !x.is_finite() && !parameter.range.contains(*x);
         let problem = if argument.components().iter().any(is_endless) {
@@ -208,6 +208,7 @@ impl<'a> Machine<'a> {
         entry: &Declaration,
         parameter: &Parameter,
         given: &Given,
+        is_planar: bool,
     ) -> Eval<T> {
         let (name, noun) = (parameter.name, parameter.kind.noun());
         let message = format!(
@@ -232,7 +233,14 @@ impl<'a> Machine<'a> {
                 Some(format!("in space there are three components: `[{x}, {y}, {z}]`"))
             }
             (Value::Angle(_), Kind::Number) => Some("lengths have no unit".into()),
-            _ => default_help(parameter),
+            _ => None,
+        };
+        // Another parameter may be what it was meant for.
+        let is_meant = |p: &&Parameter| converted(&given.value, p, is_planar).is_some();
+        let meant = entry.parameters.iter().find(is_meant);
+        let help = match (help, meant, &given.value) {
+            (None, Some(p), Value::Text(text)) => Some(format!("write `{}: \"{text}\"`", p.name)),
+            (help, _, _) => help.or_else(|| default_help(parameter)),
         };
         self.fail(error.help_if(help))
     }

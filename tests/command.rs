@@ -480,6 +480,49 @@ fn new_scene_is_ready_to_use_and_never_overwrites() {
 }
 
 #[test]
+fn adaptive_samples_are_told_and_kept_in_the_picture() {
+    let folder = Folder::with_scene("adaptive");
+    let answer = folder.run(&[
+        "render",
+        "scene.sdf",
+        "-o",
+        "a.png",
+        "--size",
+        "40x30",
+        "--samples",
+        "5",
+        "--sampling",
+        "adaptive",
+        "--method",
+        "relaxed",
+        "--omega",
+        "1.25",
+        "--stats",
+        "s.json",
+    ]);
+    let told = answer.expect(0).err;
+    assert!(told.contains("samples       5 in "), "{told}");
+    let stats = json(&String::from_utf8(folder.read("s.json")).unwrap());
+    let refined = stats["refined_pixels"].as_u64().unwrap();
+    assert!(refined > 20 && refined < 1000, "{refined}");
+    assert_eq!(stats["rays"]["primary"], 1200 + 5 * refined);
+    let settings = texts(&folder.read("a.png"));
+    let words = "samples=5 sampling=adaptive depth=8 tolerance=0.1 max_steps=1024 method=relaxed omega=1.25";
+    assert!(
+        settings.iter().any(|(_, text)| text.contains(words)),
+        "{settings:?}"
+    );
+    for wrong in ["0.9", "2", "nan", "x"] {
+        folder
+            .run(&["render", "scene.sdf", "--omega", wrong])
+            .expect(2);
+    }
+    folder
+        .run(&["render", "scene.sdf", "--sampling", "some"])
+        .expect(2);
+}
+
+#[test]
 fn explain_tells_what_is_known() {
     let folder = Folder::with_scene("explain");
     let answer = folder.run(&["explain", "scene.sdf"]).expect(0);

@@ -4,7 +4,7 @@ mod stub;
 
 use fieldstone::catalogue::{AnyBlend, AnyModifier, AnyPrimitive};
 use fieldstone::lang::{self, Loaded, Report, limits};
-use fieldstone::scene::{Falloff, Method, Model, Node, Projection, Shadow, Source};
+use fieldstone::scene::{Falloff, Method, Model, Node, Projection, Sampling, Shadow, Source};
 use glam::DVec3;
 use std::f64::consts::PI;
 use stub::Marcher;
@@ -554,7 +554,7 @@ fn the_stage_is_set() {
          light { position: [0, 4, 0], at: [0, 0, 0], angle: 60deg, softness: 0.5 }\n\
          sky { horizon: #000, zenith: #00f }\n\
          fog { color: #fff, density: 0.5 }\n\
-         render { size: [320, 200], samples: 4, depth: 2, tolerance: 0.5, max_steps: 99, method: \"sphere\", seed: 7 }",
+         render { size: [320, 200], samples: 4, sampling: \"adaptive\", depth: 2, tolerance: 0.5, max_steps: 99, method: \"relaxed\", omega: 1.5, seed: 7 }",
     );
     let scene = &loaded.scene;
     assert_eq!(
@@ -588,7 +588,8 @@ fn the_stage_is_set() {
         ([320, 200], 4, 2)
     );
     assert_eq!((settings.max_steps, settings.seed), (99, 7));
-    assert_eq!(settings.method, Method::Sphere);
+    assert_eq!((settings.method, settings.omega), (Method::Relaxed, 1.5));
+    assert_eq!(settings.sampling, Sampling::Adaptive);
 }
 
 #[test]

@@ -4,8 +4,8 @@ use fieldstone::catalogue::*;
 use fieldstone::output::{Metadata, picture, save};
 use fieldstone::render::{Channel, Film, Progress, RenderOptions, Rendered, View, render};
 use fieldstone::scene::{
-    Camera, Falloff, Fog, Light, Material, Method, Node, Projection, Scene, Shadow, Sky, Source,
-    Term,
+    Camera, Falloff, Fog, Light, Material, Method, Node, Projection, Sampling, Scene, Shadow, Sky,
+    Source, Term,
 };
 use fieldstone::shade::{Census, Surfaces, Whitted};
 use fieldstone::trace::{
@@ -199,6 +199,69 @@ fn film_and_counts_do_not_depend_on_threads_or_tiles() {
         assert_eq!((a.rays, a.primary, &a.steps), (b.rays, b.primary, &b.steps));
         assert_eq!(a.evaluations, b.evaluations);
     }
+}
+
+#[test]
+fn adaptive_samples_are_those_of_pixels_that_differ_from_a_neighbour() {
+    let channels = [Channel::Beauty, Channel::Depth, Channel::Object];
+    let of = |samples, sampling, threads, tile| {
+        let mut scene = scene(1.0);
+        scene.settings.samples = samples;
+        scene.settings.sampling = sampling;
+        let options = RenderOptions {
+            channels: &channels,
+            threads,
+            tile,
+            ..RenderOptions::default()
+        };
+        rendered(&scene, &options)
+    };
+    let one = of(1, Sampling::Even, 1, 64);
+    let all = of(9, Sampling::Even, 1, 64);
+    let some = of(9, Sampling::Adaptive, 1, 64);
+    assert_eq!(some.film.planes().len(), channels.len());
+    let [width, height] = [one.film.width(), one.film.height()];
+    let pixel = |film: &Film, [i, j]: [u32; 2]| channels.map(|c| film.at(c, i, j).to_vec());
+    let (mut refined, mut errors) = (0, [0.0; 2]);
+    for here in (0..height).flat_map(|j| (0..width).map(move |i| [i, j])) {
+        let [single, whole, adaptive] = [&one, &all, &some].map(|done| pixel(&done.film, here));
+        let right = [(here[0] + 1).min(width - 1), here[1]];
+        let is_edge = pixel(&one.film, right)[2] != single[2];
+        assert!(
+            adaptive == whole || adaptive == single && !is_edge,
+            "{here:?}"
+        );
+        refined += u64::from(adaptive == whole && adaptive != single);
+        for (error, shown) in errors.iter_mut().zip([&single, &adaptive]) {
+            let away = shown[0].iter().zip(&whole[0]).map(|(a, b)| (a - b).abs());
+            *error += f64::from(away.sum::<f32>());
+        }
+    }
+    let counted = some.statistics.refined_pixels;
+    let pixels = u64::from(width * height);
+    assert!(
+        counted >= refined && counted < pixels / 2,
+        "{counted} of {pixels}"
+    );
+    assert_eq!(some.statistics.rays.primary, pixels + 9 * counted);
+    // What is left of the difference between 1 and 9 samples is less than a tenth.
+    assert!(errors[1] < 0.1 * errors[0], "{errors:?}");
+    for (threads, tile) in [(2, 64), (3, 16), (7, 33)] {
+        let other = of(9, Sampling::Adaptive, threads, tile);
+        assert_eq!(other.film, some.film, "{threads} threads, tiles of {tile}");
+        assert_eq!(other.statistics.rays, some.statistics.rays);
+        assert_eq!(other.statistics.evaluations, some.statistics.evaluations);
+    }
+}
+
+#[test]
+fn one_adaptive_sample_is_one_sample() {
+    let mut scene = scene(1.0);
+    let even = rendered(&scene, &everything());
+    scene.settings.sampling = Sampling::Adaptive;
+    let adaptive = rendered(&scene, &everything());
+    assert_eq!(adaptive.film, even.film);
+    assert_eq!(adaptive.statistics.rays, even.statistics.rays);
 }
 
 #[test]

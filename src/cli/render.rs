@@ -12,7 +12,7 @@ use super::tracing::Tracing;
 use super::value;
 use crate::output::{self, Metadata, Saved};
 use crate::render::{self, Channel, RenderOptions, Rendered};
-use crate::scene::{Scene, Settings};
+use crate::scene::{Sampling, Scene, Settings};
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use std::path::{Path, PathBuf};
@@ -30,7 +30,7 @@ method but `interval` and `reference` looks, which need no constants; what no ra
 
 Examples:
   fieldstone render scene.sdf
-  fieldstone render scene.sdf -o big.png --size 1920x1080 --samples 16
+  fieldstone render scene.sdf -o big.png --size 1920x1080 --samples 16 --sampling adaptive
   fieldstone render scene.sdf -D teeth=30 -D gap=0.2
   fieldstone render scene.sdf --channel beauty,steps,verdict --stats stats.json
   fieldstone render scene.sdf --strict";
@@ -50,6 +50,10 @@ pub struct Arguments {
     /// Rays per pixel [default: what the script says, or else 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536), allow_negative_numbers = true)]
     samples: Option<u32>,
+    /// Which pixels get as many: all, or those that differ from a neighbour, the others one [default: what the script says, or else
+    /// even]
+    #[arg(long, value_name = "WAY", value_parser = sampling())]
+    sampling: Option<Sampling>,
     /// How often a ray may be reflected or refracted [default: what the script says, or else 8]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1000), allow_negative_numbers = true)]
     depth: Option<u32>,
@@ -70,6 +74,11 @@ pub struct Arguments {
     /// Say nothing but warnings and errors
     #[arg(short, long)]
     quiet: bool,
+}
+
+fn sampling() -> impl TypedValueParser<Value = Sampling> {
+    PossibleValuesParser::new(Sampling::ALL.map(|(name, _)| name))
+        .map(|name| Sampling::from_name(&name).expect("the parser takes only names of them"))
 }
 
 fn channel() -> impl TypedValueParser<Value = Channel> {
@@ -146,6 +155,7 @@ fn rendered(
 fn apply(arguments: &Arguments, settings: &mut Settings) {
     settings.size = arguments.size.unwrap_or(settings.size);
     settings.samples = arguments.samples.unwrap_or(settings.samples);
+    settings.sampling = arguments.sampling.unwrap_or(settings.sampling);
     settings.depth = arguments.depth.unwrap_or(settings.depth);
     arguments.tracing.apply(settings);
 }

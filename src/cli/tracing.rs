@@ -17,6 +17,9 @@ pub struct Tracing {
     /// How many steps a ray may take through a shape [default: what the script says, or else 1024]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000), allow_negative_numbers = true)]
     max_steps: Option<u32>,
+    /// How much longer than Hart's the steps of `relaxed` are [default: what the script says, or else 1.6]
+    #[arg(long, value_name = "W", value_parser = value::omega, allow_negative_numbers = true)]
+    omega: Option<f64>,
 }
 
 impl Tracing {
@@ -25,6 +28,7 @@ impl Tracing {
         settings.method = self.method.unwrap_or(settings.method);
         settings.tolerance = self.tolerance.unwrap_or(settings.tolerance);
         settings.max_steps = self.max_steps.unwrap_or(settings.max_steps);
+        settings.omega = self.omega.unwrap_or(settings.omega);
     }
 }
 

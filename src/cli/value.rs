@@ -119,6 +119,18 @@ pub fn positive(text: &str) -> Result<f64, String> {
         .ok_or(format!("`{text}` is not above zero"))
 }
 
+/// How much longer than known to be free a step is: a number from 1 up to, but not with, 2.
+///
+/// # Errors
+/// A sentence on what is wrong with it.
+pub fn omega(text: &str) -> Result<f64, String> {
+    let x = number(text)?;
+    (1.0..2.0)
+        .contains(&x)
+        .then_some(x)
+        .ok_or(format!("`{text}` is not at least 1 and below 2"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -5,7 +5,9 @@ use super::machine::{Eval, Machine, Stop};
 use super::report::Diagnostic;
 use super::source::Word;
 use super::terms::Terms;
-use crate::scene::{Camera, Falloff, Fog, Light, Method, Projection, Settings, Sky, Source};
+use crate::scene::{
+    Camera, Falloff, Fog, Light, Method, Projection, Sampling, Settings, Sky, Source,
+};
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -220,10 +222,12 @@ impl<'a> Machine<'a> {
         let known = [
             "size",
             "samples",
+            "sampling",
             "depth",
             "tolerance",
             "max_steps",
             "method",
+            "omega",
             "seed",
         ];
         let mut terms = Terms::new(self, (&word.text, word.span), entries, &known);
@@ -258,14 +262,17 @@ impl<'a> Machine<'a> {
             (1.0, 1e6),
             default.max_steps,
         );
+        let omegas = ("at least 1 and below 2", |x: f64| (1.0..2.0).contains(&x));
         let seeds = ("a whole number from 0 to 2^53", whole(0.0, 2f64.powi(53)));
         let settings = Settings {
             size: size.map_or(default.size, |s| s.map(|x| x as u32)),
             samples,
+            sampling: terms.choice(self, "sampling", &Sampling::ALL, default.sampling),
             depth,
             tolerance: terms.number(self, "tolerance", POSITIVE, default.tolerance),
             max_steps,
             method: terms.choice(self, "method", &Method::ALL, default.method),
+            omega: terms.number(self, "omega", omegas, default.omega),
             seed: terms.number(self, "seed", seeds, 0.0) as u64,
         };
         finish(terms, settings)

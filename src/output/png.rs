@@ -1,6 +1,6 @@
 //! PNG with the story of the picture in its text.
 
-use crate::scene::Settings;
+use crate::scene::{Method, Sampling, Settings};
 use image::RgbImage;
 use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, SrgbRenderingIntent};
 
@@ -46,8 +46,17 @@ impl Metadata {
 
 fn in_words(s: &Settings) -> String {
     let [width, height] = s.size;
+    // Settings of some pictures alone.
+    let sampling = match s.sampling {
+        Sampling::Even => String::new(),
+        Sampling::Adaptive => format!(" sampling={}", s.sampling.name()),
+    };
+    let omega = match s.method {
+        Method::Relaxed => format!(" omega={}", s.omega),
+        _ => String::new(),
+    };
     format!(
-        "size={width}x{height} samples={} depth={} tolerance={} max_steps={} method={} seed={}",
+        "size={width}x{height} samples={}{sampling} depth={} tolerance={} max_steps={} method={}{omega} seed={}",
         s.samples,
         s.depth,
         s.tolerance,

@@ -2,6 +2,7 @@
 
 use super::area::Area;
 use crate::num::BATCH;
+use std::ops::Range;
 
 /// The side of a block, in pixels: the rays of a block are traced together, with all that follows from them, so that
 /// what they find does not depend on how blocks are put together to tiles.
@@ -49,14 +50,34 @@ impl Block {
         for square in area.squares(SQUARE) {
             let [left, right] = [square.corner[0], square.end[0]];
             for row in square.corner[1]..square.end[1] {
-                self.runs.push(Run {
-                    first: [left, row],
-                    pixels: (right - left) as usize,
-                });
-                self.pixels
-                    .extend((left..right).map(|column| [column, row]));
+                self.push(left..right, row);
             }
         }
+    }
+
+    /// As [`Block::move_to`], of the pixels that are chosen alone.
+    pub fn choose(&mut self, area: &Area, is_chosen: impl Fn([u32; 2]) -> bool) {
+        self.move_to(area);
+        let mut left = Self::default();
+        for &Run { first, pixels } in &self.runs {
+            let [column, row] = first;
+            let all: Vec<u32> = (column..column + pixels as u32).collect();
+            for columns in all.chunk_by(|a, b| is_chosen([*a, row]) == is_chosen([*b, row])) {
+                if is_chosen([columns[0], row]) {
+                    left.push(columns[0]..columns[0] + columns.len() as u32, row);
+                }
+            }
+        }
+        *self = left;
+    }
+
+    /// Adds neighbours in a row.
+    fn push(&mut self, columns: Range<u32>, row: u32) {
+        self.runs.push(Run {
+            first: [columns.start, row],
+            pixels: columns.len(),
+        });
+        self.pixels.extend(columns.map(|column| [column, row]));
     }
 
     /// Its pixels, columns and rows, in the order in which they are traced: square by square, and in these row by row.
@@ -92,6 +113,27 @@ mod tests {
             let distinct: HashSet<_> = block.pixels().iter().collect();
             assert_eq!(distinct.len(), area.pixels());
             assert!(block.pixels().iter().all(|pixel| area.has(*pixel)));
+        }
+    }
+
+    #[test]
+    fn chosen_pixels_are_those_of_the_block_in_its_order() {
+        let area = Area {
+            corner: [16, 32],
+            end: [32, 45],
+        };
+        let whole = Block::of(&area);
+        for seed in 0..20 {
+            let is_chosen = |[i, j]: [u32; 2]| (i * 7 + j * 13 + i * j) % 20 < seed;
+            let mut block = Block::default();
+            block.choose(&area, is_chosen);
+            let expected = whole.pixels().iter().filter(|pixel| is_chosen(**pixel));
+            assert!(expected.eq(block.pixels()), "{seed}");
+            let columns = |run: &Run| run.first[0]..run.first[0] + run.pixels as u32;
+            let of_run = |run: &Run| columns(run).map(|i| [i, run.first[1]]).collect::<Vec<_>>();
+            let runs: Vec<_> = block.runs().iter().flat_map(of_run).collect();
+            assert_eq!(runs, block.pixels());
+            assert!(block.runs().iter().all(|run| run.pixels <= Run::LONGEST));
         }
     }
 }

@@ -63,6 +63,18 @@ impl Film {
         })
     }
 
+    /// What was recorded, to be changed.
+    #[cfg(test)]
+    pub(super) fn planes_mut(&mut self) -> &mut [Plane] {
+        &mut self.planes
+    }
+
+    /// Forgets all but these channels.
+    pub(super) fn keep(&mut self, channels: &[Channel]) {
+        self.planes
+            .retain(|plane| channels.contains(&plane.channel));
+    }
+
     /// What was recorded, in the order in which it was asked for.
     pub fn planes(&self) -> &[Plane] {
         &self.planes

@@ -1,10 +1,11 @@
 //! The whole picture: tiles on threads.
 
 use super::film::Patch;
+use super::refine::{NEEDED, Refined};
 use super::statistics::{Layout, Tally};
 use super::tile::{Shared, Tile};
 use super::{Channel, Film, Statistics, View};
-use crate::scene::Scene;
+use crate::scene::{Sampling, Scene};
 use crate::shade::{Surfaces, Whitted};
 use rayon::prelude::*;
 use std::sync::Mutex;
@@ -19,7 +20,7 @@ const STACK_BYTES: usize = 16 << 20;
 pub struct Progress {
     /// Tiles that are done.
     pub done: usize,
-    /// Tiles of the picture.
+    /// Tiles of the picture; where samples are adaptive, each is there twice.
     pub tiles: usize,
 }
 
@@ -93,54 +94,99 @@ pub(super) fn on_threads<T: Sync, R: Send>(
 pub fn render<S: Surfaces + ?Sized>(scene: &Scene, world: &S, options: &RenderOptions) -> Rendered {
     let start = Instant::now();
     let settings = &scene.settings;
-    let mut film = Film::new(settings.size, options.channels);
+    let samples = settings.samples.max(1);
+    let is_adaptive = settings.sampling == Sampling::Adaptive && samples > 1;
+    let mut channels = options.channels.to_vec();
+    if is_adaptive {
+        channels.extend(NEEDED);
+    }
+    let mut film = Film::new(settings.size, &channels);
     let channels: Vec<Channel> = film.planes().iter().map(|plane| plane.channel).collect();
-    let shared = Shared {
+    let mut shared = Shared {
         whitted: Whitted::new(scene, world),
         view: View::new(&scene.camera, settings.size),
-        settings,
+        samples: if is_adaptive { 1 } else { samples },
+        seed: settings.seed,
+        refined: None,
         channels: &channels,
     };
-    let tiles = Tile::all(settings.size, options.tile.max(1));
-    let side = tiles.first().map_or([1; 2], Tile::size);
-    let patches = film.patches(side).into_iter().map(Mutex::new);
-    let jobs: Vec<(&Tile, Mutex<Patch>)> = tiles.iter().zip(patches).collect();
-    let result = Mutex::new(Recording::default());
-    let work = |(tile, patch): &(&Tile, Mutex<Patch>)| {
-        if options.is_cancelled() {
-            return;
-        }
-        // Another thread panicked if either is poisoned; rayon passes that on.
-        let Ok(mut patch) = patch.lock() else {
-            return;
-        };
-        let cost = tile.render(&shared, &mut patch);
-        let Ok(mut recording) = result.lock() else {
-            return;
-        };
-        let done = recording.add(cost);
-        drop(recording);
-        if let Some(progress) = options.progress {
-            progress(Progress {
-                done,
-                tiles: tiles.len(),
-            });
-        }
+    let mut round = Round {
+        options,
+        tiles: Tile::all(settings.size, options.tile.max(1)),
+        rounds: 1 + usize::from(is_adaptive),
+        recording: Recording::default(),
+        threads: 1,
     };
-    let (_, threads) = on_threads(options.threads, &jobs, work);
-    drop(jobs);
-    let Recording { tally, done } = result
-        .into_inner()
-        .unwrap_or_else(|poisoned| poisoned.into_inner());
+    round.expose(&shared, &mut film);
+    let mut refined_pixels = 0;
+    if is_adaptive && !options.is_cancelled() {
+        let refined = Refined::of(&film);
+        refined_pixels = refined.count();
+        shared.samples = samples;
+        shared.refined = Some(&refined);
+        // Those without an answer are asked again.
+        round.recording.tally.unknown_pixels = 0;
+        round.expose(&shared, &mut film);
+    }
+    film.keep(options.channels);
+    let Round {
+        recording, threads, ..
+    } = &round;
     Rendered {
         film,
-        statistics: tally.statistics(Layout {
+        statistics: recording.tally.statistics(Layout {
             size: settings.size,
-            samples: settings.samples.max(1),
-            threads,
+            samples,
+            refined_pixels,
+            threads: *threads,
             wall: start.elapsed(),
         }),
-        cancelled: done < tiles.len(),
+        cancelled: recording.done < round.rounds * round.tiles.len(),
+    }
+}
+
+/// The tiles of a picture, which are recorded once or, where samples are adaptive, twice.
+struct Round<'a> {
+    options: &'a RenderOptions<'a>,
+    tiles: Vec<Tile>,
+    /// How many times.
+    rounds: usize,
+    recording: Recording,
+    threads: usize,
+}
+
+impl Round<'_> {
+    /// Records all tiles on the film.
+    fn expose<S: Surfaces + ?Sized>(&mut self, shared: &Shared<S>, film: &mut Film) {
+        let (options, tiles) = (self.options, &self.tiles);
+        let side = tiles.first().map_or([1; 2], Tile::size);
+        let patches = film.patches(side).into_iter().map(Mutex::new);
+        let jobs: Vec<(&Tile, Mutex<Patch>)> = tiles.iter().zip(patches).collect();
+        let result = Mutex::new(std::mem::take(&mut self.recording));
+        let all = self.rounds * tiles.len();
+        let work = |(tile, patch): &(&Tile, Mutex<Patch>)| {
+            if options.is_cancelled() {
+                return;
+            }
+            // Another thread panicked if either is poisoned; rayon passes that on.
+            let Ok(mut patch) = patch.lock() else {
+                return;
+            };
+            let cost = tile.render(shared, &mut patch);
+            let Ok(mut recording) = result.lock() else {
+                return;
+            };
+            let done = recording.add(cost);
+            drop(recording);
+            if let Some(progress) = options.progress {
+                progress(Progress { done, tiles: all });
+            }
+        };
+        (_, self.threads) = on_threads(options.threads, &jobs, work);
+        drop(jobs);
+        self.recording = result
+            .into_inner()
+            .unwrap_or_else(|poisoned| poisoned.into_inner());
     }
 }
 

@@ -10,6 +10,7 @@ mod exposure;
 mod film;
 mod hits;
 mod job;
+mod refine;
 mod rounds;
 mod sampling;
 mod spread;

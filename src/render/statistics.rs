@@ -18,6 +18,8 @@ pub struct Statistics {
     pub size: [u32; 2],
     /// Rays per pixel.
     pub samples: u32,
+    /// Of adaptive samples, how many pixels got all of them, besides the one that each has; 0 where samples are even.
+    pub refined_pixels: u64,
     /// How many threads worked.
     pub threads: usize,
     /// Rays by kind.
@@ -211,6 +213,8 @@ pub struct Layout {
     pub size: [u32; 2],
     /// Rays per pixel.
     pub samples: u32,
+    /// How many pixels got more than one of adaptive samples.
+    pub refined_pixels: u64,
     /// How many threads worked.
     pub threads: usize,
     /// How long it took.
@@ -226,6 +230,7 @@ impl Tally {
             schema: SCHEMA,
             size: layout.size,
             samples: layout.samples,
+            refined_pixels: layout.refined_pixels,
             threads: layout.threads,
             rays: Rays {
                 primary: c.primary,

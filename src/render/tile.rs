@@ -4,9 +4,9 @@ use super::area::Area;
 use super::block::{BLOCK, Block};
 use super::exposure::Exposure;
 use super::film::Patch;
+use super::refine::Refined;
 use super::statistics::Tally;
 use super::{Channel, View, sampling};
-use crate::scene::Settings;
 use crate::shade::{Received, Surfaces, Whitted};
 use crate::trace::{Outcomes, Rays};
 use glam::DVec3;
@@ -17,7 +17,12 @@ use std::time::Instant;
 pub struct Shared<'a, S: Surfaces + ?Sized> {
     pub whitted: Whitted<'a, S>,
     pub view: View,
-    pub settings: &'a Settings,
+    /// What random choices start from.
+    pub seed: u64,
+    /// Rays per pixel.
+    pub samples: u32,
+    /// The only pixels that are recorded; none for all.
+    pub refined: Option<&'a Refined>,
     /// What is recorded.
     pub channels: &'a [Channel],
 }
@@ -25,6 +30,9 @@ pub struct Shared<'a, S: Surfaces + ?Sized> {
 impl<S: Surfaces + ?Sized> Shared<'_, S> {
     /// What is recorded of rays that meet nothing, if it is the same for all of them.
     fn backdrop(&self) -> Option<DVec3> {
+        if self.refined.is_some() {
+            return None;
+        }
         let shows = |channel| self.channels.contains(channel);
         if [Channel::Beauty, Channel::Color].iter().any(shows) {
             self.whitted.backdrop()
@@ -65,23 +73,30 @@ impl Tile {
     pub fn render<S: Surfaces + ?Sized>(&self, shared: &Shared<S>, patch: &mut Patch) -> Tally {
         let start = Instant::now();
         let mut tally = Tally::default();
-        let samples = shared.settings.samples.max(1);
+        let samples = shared.samples;
         let mut desk = DESK.with(Cell::take).unwrap_or_default();
         let mut exposure = Exposure::new(shared.channels);
         let mut block = Block::default();
         let mut even = None;
         for area in self.areas() {
-            let pixels = area.pixels();
+            if let Some(refined) = shared.refined {
+                block.choose(&area, |pixel| refined.needs(pixel));
+                if block.pixels().is_empty() {
+                    continue;
+                }
+            }
             let beam = shared.view.beam(&area);
             let may_meet = shared.whitted.may_meet(&beam, &mut tally.census);
             if !may_meet && let Some(color) = shared.backdrop() {
-                tally.miss(pixels * samples as usize);
+                tally.miss(area.pixels() * samples as usize);
                 even.get_or_insert_with(|| Exposure::even(shared.channels, samples, color))
                     .develop_all(samples, &area, patch);
                 continue;
             }
-            block.move_to(&area);
-            exposure.reset(pixels);
+            if shared.refined.is_none() {
+                block.move_to(&area);
+            }
+            exposure.reset(block.pixels().len());
             for sample in 0..samples {
                 desk.aim(shared, block.pixels(), sample);
                 desk.meet(shared, may_meet, &mut tally);
@@ -111,7 +126,7 @@ struct Desk {
 impl Desk {
     /// Takes a sample of each of these pixels.
     fn aim<S: Surfaces + ?Sized>(&mut self, shared: &Shared<S>, pixels: &[[u32; 2]], sample: u32) {
-        let Settings { samples, seed, .. } = *shared.settings;
+        let (samples, seed) = (shared.samples, shared.seed);
         let aside = |pixel| sampling::place(pixel, sample, samples, seed);
         shared.view.aim(pixels, aside, &mut self.rays);
     }

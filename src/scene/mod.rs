@@ -31,7 +31,7 @@ pub use light::{Falloff, Light, Source};
 pub use material::{Material, Model, Shadow, Term};
 pub use node::{Displacement, FieldShape, Node, Place, Shape};
 pub use program::Program;
-pub use settings::{Method, Settings};
+pub use settings::{Method, Sampling, Settings};
 pub use supremum::sampled_supremum;
 pub use tracer::{CameraRecord, TraceRecord, Tracer};
 

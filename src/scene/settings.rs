@@ -13,7 +13,7 @@ pub enum Method {
     Convex,
     /// Hart's sphere tracing everywhere: t += |f| / lambda until |f| < epsilon or t > D.
     Sphere,
-    /// Over-relaxed sphere tracing, Keinert et al. 2014.
+    /// Over-relaxed sphere tracing by [`Settings::omega`], Keinert et al. 2014.
     Relaxed,
     /// Automatic step size relaxation, Ban and Valasek 2023.
     AutoRelaxed,
@@ -62,6 +62,34 @@ impl Method {
     }
 }
 
+/// Which pixels get all samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Sampling {
+    /// All of them.
+    Even,
+    /// Those that differ from a neighbour: in what is seen, in where it faces, or in colour. Of the others one sample in the
+    /// middle is enough.
+    Adaptive,
+}
+
+impl Sampling {
+    /// All ways, by their names in scripts.
+    pub const ALL: [(&'static str, Self); 2] = [("even", Self::Even), ("adaptive", Self::Adaptive)];
+
+    /// The way that scripts call `name`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        let mut all = Self::ALL.iter();
+        all.find(|(word, _)| *word == name).map(|(_, way)| *way)
+    }
+
+    /// The name in scripts.
+    pub fn name(self) -> &'static str {
+        let mut all = Self::ALL.iter();
+        all.find(|(_, way)| *way == self)
+            .map_or("", |(word, _)| word)
+    }
+}
+
 /// How the picture is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -69,6 +97,8 @@ pub struct Settings {
     pub size: [u32; 2],
     /// Rays per pixel.
     pub samples: u32,
+    /// Which pixels get as many.
+    pub sampling: Sampling,
     /// How many times a ray may be reflected or refracted; what is deeper is black.
     pub depth: u32,
     /// How far from the surface a hit may be, in footprints of a pixel at its distance.
@@ -77,6 +107,8 @@ pub struct Settings {
     pub max_steps: u32,
     /// Which way rays find surfaces.
     pub method: Method,
+    /// How much longer the steps of [`Method::Relaxed`] are than what is known to be free; in [1, 2).
+    pub omega: f64,
     /// What random choices start from.
     pub seed: u64,
 }
@@ -91,10 +123,12 @@ impl Default for Settings {
         Self {
             size: [640, 360],
             samples: 1,
+            sampling: Sampling::Even,
             depth: 8,
             tolerance: 0.1,
             max_steps: 1024,
             method: Method::Auto,
+            omega: 1.6,
             seed: 0,
         }
     }

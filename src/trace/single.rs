@@ -174,6 +174,7 @@ impl Packet {
             size: self.size[lane],
             is_sheet: marched.is_sheet,
             is_endless: rules.is_endless,
+            omega: 1.0,
         }
     }
 }

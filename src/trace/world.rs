@@ -462,6 +462,7 @@ impl World {
             size: origin + self.reach(part),
             is_sheet: part.is_sheet,
             is_endless: part.is_endless(),
+            omega: self.settings.omega,
         }
     }
 

@@ -62,15 +62,26 @@ fn sphere_tracing_by_default_settings_ends_by_the_pixel() {
 
 #[test]
 fn relaxed_steps_shrink_the_height_by_omega() {
-    // The balls of two places overlap where omega (1 + sine) <= 2: below 14 degrees for omega = 1.6.
-    for degrees in [10.0, 2.0, 1.0, 0.1] {
+    // The balls of two places overlap where omega (1 + sine) <= 2: below 14 degrees for omega = 1.6, below 3 for 1.9.
+    for (omega, degrees) in [
+        (1.6, 10.0),
+        (1.6, 2.0),
+        (1.6, 1.0),
+        (1.6, 0.1),
+        (1.0, 2.0),
+        (1.2, 10.0),
+        (1.9, 2.0),
+        (1.9, 0.1),
+    ] {
         let (ray, sine) = grazing(degrees);
-        let out = walk(FLOOR, Method::Relaxed, ray);
-        assert_eq!(
-            out.steps,
-            shrinkings(EPSILON, 1.0 - 1.6 * sine) + 1,
-            "{degrees} degrees"
-        );
+        let settings = Settings {
+            omega,
+            max_steps: 1_000_000,
+            ..settings(Method::Relaxed)
+        };
+        let out = traced(FLOOR, settings, &[ray])[0];
+        let expected = shrinkings(EPSILON, 1.0 - omega * sine) + 1;
+        assert_eq!(out.steps, expected, "{degrees} degrees, omega {omega}");
     }
 }
 

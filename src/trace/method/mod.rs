@@ -58,6 +58,8 @@ pub struct Segment {
     pub is_sheet: bool,
     /// Whether the shape has no finite bounds.
     pub is_endless: bool,
+    /// How much longer over-relaxed steps are than what is known to be free.
+    pub omega: f64,
 }
 
 impl Segment {

@@ -1,6 +1,6 @@
 //! Over-relaxed sphere tracing: steps are omega times the free radius, and where the balls of two places in a row do not
 //! overlap, the walk steps back. Source: Keinert, Schaefer, Korndoerfer, Ganse, Stamminger, Enhanced sphere tracing, 2014,
-//! section 3.1 and listing 1: after a step back, omega is 1 for the rest of the ray.
+//! section 3.1 and listing 1: after a step back, omega is 1 for the rest of the ray. They found 1.6 best on most scenes.
 //!
 //! Guarantees: no root is stepped over where lambda holds on both sides of the surface. Does not: a hit is only near a
 //! surface, within epsilon, and a ray that passes closer than that is called a hit too. A lambda that is too small does
@@ -22,9 +22,6 @@ pub struct Relaxed {
 }
 
 impl Relaxed {
-    /// How much longer steps are than what is known to be free. Keinert et al. found 1.6 best on most scenes.
-    pub const OMEGA: f64 = 1.6;
-
     fn advance(&mut self, radius: f64) -> Option<Ending> {
         let overlaps = self.radius + radius.abs() >= self.step;
         if !overlaps && self.omega > 1.0 {
@@ -53,7 +50,7 @@ impl Walk for Relaxed {
         Self {
             course: Course::begin(segment),
             t: segment.start,
-            omega: Self::OMEGA,
+            omega: segment.omega,
             radius: 0.0,
             step: 0.0,
         }

@@ -227,6 +227,8 @@ fn statement_wanted(
 /// What to write instead of a token from another language.
 fn remedy(found: &str, positives: &[Rule]) -> Option<String> {
     let is_name_wanted = positives.contains(&Rule::name) && !positives.contains(&Rule::quantity);
+    let is_expression = |rule: &Rule| category(*rule) == Some(EXPRESSION);
+    let is_expression_wanted = positives.iter().any(is_expression);
     if positives.contains(&Rule::else_word) {
         return Some(
             "an `if` gives a value, so it needs both: `if condition { a } else { b }`".into(),
@@ -246,7 +248,7 @@ fn remedy(found: &str, positives: &[Rule]) -> Option<String> {
             "write `==` to compare, `:` to name an argument"
         }
         "else" => "write `if condition { a } else { b }`",
-        "{" if positives.contains(&Rule::quantity) => {
+        "{" if is_expression_wanted => {
             "braces hold the terms of a statement, which has a name: `material tin { reflect: 0.5 }`, then `.paint(tin)`"
         }
         "return" | "let" if positives.contains(&Rule::close_brace) => {

@@ -25,13 +25,15 @@ pub enum Method {
     Bisect,
     /// Interval analysis on the ray, Mitchell 1990.
     Interval,
+    /// Lines below the field and crossings of levels, in one traversal: forward inclusion, Aydinlilar and Zanni 2023.
+    Probe,
     /// Interval bisection to the end, unpruned: the judge of the others.
     Reference,
 }
 
 impl Method {
     /// All methods, by their names in scripts.
-    pub const ALL: [(&'static str, Self); 11] = [
+    pub const ALL: [(&'static str, Self); 12] = [
         ("auto", Self::Auto),
         ("certified", Self::Certified),
         ("convex", Self::Convex),
@@ -42,6 +44,7 @@ impl Method {
         ("segment", Self::Segment),
         ("bisect", Self::Bisect),
         ("interval", Self::Interval),
+        ("probe", Self::Probe),
         ("reference", Self::Reference),
     ];
 

@@ -27,6 +27,7 @@ mod outcome;
 mod packet;
 mod part;
 mod precision;
+mod probe;
 mod quartic;
 mod ray;
 mod rays;

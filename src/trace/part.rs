@@ -5,6 +5,7 @@ use super::apart;
 use super::cut::Cut;
 use super::evidence::Evidence;
 use super::method::{Demands, Reach};
+use super::probe::Probe;
 use super::ring::Ring;
 use crate::catalogue::Modifier;
 use crate::catalogue::{AnyPrimitive, Bounds, Combination, Operation, Triangle, with_modifier};
@@ -111,6 +112,8 @@ pub struct Marched {
     pub(super) cut: Option<Cut>,
     /// The combination that can be thinned out, if the field is one.
     pub thicket: Option<Thicket>,
+    /// What [`Marched::probe`] gives, once it was asked for.
+    probe: OnceLock<Probe>,
     /// What rays have found against its constant.
     pub(super) evidence: Evidence,
 }
@@ -272,6 +275,7 @@ impl Marched {
             slope,
             gradient: OnceLock::new(),
             ranges: OnceLock::new(),
+            probe: OnceLock::new(),
             evidence: Evidence::default(),
             node: shape,
         })
@@ -322,6 +326,12 @@ impl Marched {
     /// The field and its gradient, compiled when they are first asked for.
     pub fn gradient(&self) -> &Closure<Dual<f64, 3>> {
         self.gradient.get_or_init(|| compile(&self.node))
+    }
+
+    /// The field as a tree that can be probed, made when it is first asked for.
+    pub fn probe(&self) -> &Probe {
+        self.probe
+            .get_or_init(|| Probe::new(&self.node, self.region))
     }
 
     /// The ranges of the field and of its derivative along a ray, compiled when they are first asked for.

@@ -71,6 +71,22 @@ fn walk<W: Walk>(part: &Marched, ray: &Ray, job: &Job) -> Walked {
     let mut trail = Trail::default();
     loop {
         evaluations += 1;
+        if let Some(reach) = walk.probe() {
+            let t = walk.t();
+            let ahead = part.probe().ask(ray, t, reach);
+            let samples = trail.extend(&job.segment, (t, ahead.value));
+            if let Some(samples) = samples {
+                part.evidence.add(Witness::on(ray, samples));
+            }
+            if let Some(ending) = walk.ahead(ahead) {
+                return Walked {
+                    ray: job.ray,
+                    ending,
+                    evaluations,
+                };
+            }
+            continue;
+        }
         let ending = match walk.reach() {
             Some(reach) => {
                 let (value, slope) = ranges(part, ray, walk.t(), reach);

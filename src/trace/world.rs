@@ -10,7 +10,7 @@ use super::join::joined;
 use super::march::{Job, Walked, march};
 use super::method::{
     AutoRelaxed, Bisection, Certified, Convex, Demands, Ending, Enhanced, IntervalAnalysis,
-    Reference, Relaxed, Segment, SegmentTracing, SphereTracing,
+    Probing, Reference, Relaxed, Segment, SegmentTracing, SphereTracing,
 };
 use super::part::{Marched, Part, PartKind, flatten};
 use super::survey::{resolved, survey};
@@ -487,6 +487,10 @@ impl World {
             Method::Segment => survey::<SegmentTracing>(marched, rays, jobs),
             Method::Bisect => march::<Bisection>(marched, rays, jobs),
             Method::Interval => survey::<IntervalAnalysis>(marched, rays, jobs),
+            Method::Probe => {
+                let walked = survey::<Probing>(marched, rays, jobs);
+                resolved(marched, rays, jobs, walked)
+            }
             Method::Reference => survey::<Reference>(marched, rays, jobs),
         }
     }

@@ -34,7 +34,9 @@ enum Promise {
 
 fn promise(method: Method) -> Promise {
     match method {
-        Method::Auto | Method::Certified | Method::Convex | Method::Reference => Promise::Certified,
+        Method::Auto | Method::Certified | Method::Convex | Method::Probe | Method::Reference => {
+            Promise::Certified
+        }
         Method::Bisect => Promise::Inside,
         Method::Sphere
         | Method::Relaxed

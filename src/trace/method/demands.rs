@@ -33,7 +33,7 @@ impl Demands {
             Method::Sphere | Method::Relaxed | Method::AutoRelaxed | Method::Enhanced => {
                 Reach::Constant
             }
-            Method::Segment | Method::Bisect | Method::Interval => Reach::Bounds,
+            Method::Segment | Method::Bisect | Method::Interval | Method::Probe => Reach::Bounds,
             Method::Reference => Reach::Everywhere,
         };
         Self {

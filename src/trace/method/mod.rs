@@ -2,8 +2,8 @@
 //!
 //! A method is a machine: it names the distance at which it wants the field, is told the value (and, if it asks, the
 //! derivative along the ray), and either goes on or ends. The driver in `march.rs` feeds packets of machines. Some methods
-//! also ask for the ranges of the field and of its derivative over a piece of the ray; the driver in `survey.rs` feeds
-//! those, one ray at a time. To add a method: its file here, its name in `scene/settings.rs`, its demands below, and
+//! also ask for the ranges of the field and of its derivative over a piece of the ray, or for what a probe says of it; the driver in
+//! `survey.rs` feeds those, one ray at a time. To add a method: its file here, its name in `scene/settings.rs`, its demands below, and
 //! its line in `World::walk`.
 
 mod auto_relaxed;
@@ -15,6 +15,7 @@ mod demands;
 mod enhanced;
 mod interval;
 mod pieces;
+mod probe;
 mod reference;
 mod relaxed;
 mod resolver;
@@ -28,12 +29,14 @@ pub use convex::Convex;
 pub use demands::{Demands, Reach};
 pub use enhanced::Enhanced;
 pub use interval::IntervalAnalysis;
+pub use probe::Probing;
 pub use reference::Reference;
 pub use relaxed::Relaxed;
 pub use resolver::Resolver;
 pub use segment::SegmentTracing;
 pub use sphere::SphereTracing;
 
+use super::probe::Ahead;
 use super::{Footprint, Verdict};
 use crate::num::Interval;
 
@@ -159,6 +162,16 @@ pub trait Walk: Send {
 
     /// Where ranges are wanted instead: up to here, from [`Walk::t`] on. Only `survey.rs` asks; other drivers know values.
     fn reach(&self) -> Option<f64> {
+        None
+    }
+
+    /// How far ahead lines and levels are wanted instead, from [`Walk::t`] on: finite. Only `survey.rs` asks.
+    fn probe(&self) -> Option<f64> {
+        None
+    }
+
+    /// Takes what the field does ahead; gives the end, if this is it.
+    fn ahead(&mut self, _ahead: Ahead) -> Option<Ending> {
         None
     }
 

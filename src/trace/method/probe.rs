@@ -81,8 +81,12 @@ impl Probing {
         if height <= 0.0 {
             return 0.0;
         }
-        let falls = -slope * self.reach > height;
-        let by_line = if falls { height / -slope } else { self.reach };
+        // A slope that is not a number says nothing.
+        let by_line = if -slope * self.reach <= height {
+            self.reach
+        } else {
+            height / -slope
+        };
         let by_level = ahead.free - noise / lipschitz;
         // Where one is not a number, the others count.
         (height / lipschitz).max(by_line).max(by_level)
@@ -182,5 +186,63 @@ impl Walk for Probing {
             ending.t
         };
         Some(Ending { steps, t, ..ending })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trace::Footprint;
+
+    fn walk() -> Probing {
+        Probing::begin(Segment {
+            start: 0.0,
+            end: 10.0,
+            lipschitz: 2.0,
+            footprint: Footprint {
+                at_origin: 0.0,
+                spread: 1e-3,
+            },
+            tolerance: 0.1,
+            max_steps: 100,
+            size: 10.0,
+            is_sheet: false,
+            is_endless: false,
+            omega: 1.0,
+        })
+    }
+
+    /// Where a walk is after this answer.
+    fn after(value: f64, slope: [f64; 2], free: f64) -> f64 {
+        let mut walk = walk();
+        assert_eq!(walk.probe(), Some(10.0));
+        assert_eq!(walk.ahead(Ahead { value, slope, free }), None);
+        walk.t()
+    }
+
+    #[test]
+    fn the_longest_of_the_steps_is_taken() {
+        let is_about = |t: f64, expected: f64| assert!((t - expected).abs() < 1e-9, "{t}");
+        is_about(after(2.0, [-2.0, 2.0], 0.0), 1.0);
+        is_about(after(2.0, [-0.5, 2.0], 0.0), 4.0);
+        is_about(after(2.0, [-2.0, 2.0], 7.0), 7.0);
+        // Inside, the line above counts.
+        is_about(after(-2.0, [-2.0, 0.5], 0.0), 4.0);
+    }
+
+    #[test]
+    fn what_is_not_a_number_allows_no_step() {
+        for slope in [[f64::NAN; 2], [f64::NEG_INFINITY, f64::INFINITY]] {
+            let t = after(2.0, slope, f64::NAN);
+            assert!((t - 1.0).abs() < 1e-9, "{t}");
+        }
+        let broken = Ahead {
+            value: f64::NAN,
+            slope: [0.0; 2],
+            free: 1.0,
+        };
+        let ending = walk().ahead(broken).expect("an end");
+        assert_eq!(ending.verdict, Verdict::Unknown);
+        assert!(!ending.is_open());
     }
 }

@@ -219,7 +219,8 @@ fn finite_quotient<T: Float>(n: T, d: T) -> (T, T) {
 /// `atan(n / d)` for `0 <= n <= d`: reduced about 0, 1/2 or 1, with one division.
 #[inline(always)]
 fn atan_of_quotient<T: Float>(n: T, d: T) -> T {
-    let is_low = n < T::from_f64(7.0 / 16.0) * d;
+    // Of the smallest subnormal number 7/16 are rounded to zero, 7/8 are not: 0 is below them.
+    let is_low = n + n < T::from_f64(7.0 / 8.0) * d;
     let is_middle = n < T::from_f64(11.0 / 16.0) * d;
     let [start, rest] = if is_middle { T::ATAN_HALF } else { T::ATAN_ONE };
     let [start, rest] = if is_low { [T::ZERO; 2] } else { [start, rest] };
@@ -397,6 +398,8 @@ mod tests {
         assert_eq!(sin(-0.0_f64).to_bits(), (-0.0_f64).to_bits());
         assert_eq!(atan2(0.0, 0.0), 0.0);
         assert_eq!([atan2(0.0, -0.0), atan2(-0.0, -0.0)], [0.0, 0.0]);
+        assert_eq!([atan2(0.0, 5e-324), atan2(-0.0, 5e-324)], [0.0, 0.0]);
+        assert_eq!(atan2(0.0, f32::from_bits(1)), 0.0);
         let nans = [
             ln(-1.0),
             sin(infinity),

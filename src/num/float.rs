@@ -44,7 +44,8 @@ pub trait Float:
     const ROUNDER: Self;
     /// A quarter of the largest number, beyond which sums may overflow.
     const LARGE: Self;
-    /// `sin` and `cos` have kernels up to this absolute value, and come from libm beyond.
+    /// `sin` and `cos` have kernels up to this absolute value, and come from libm beyond: slower, lane by lane, with the same
+    /// bits on every machine and off by less than 1 ulp.
     const TRIG_RANGE: Self;
     /// Below this `exp` is 0.
     const EXP_LOW: Self;

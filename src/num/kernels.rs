@@ -4,8 +4,29 @@
 //! gives the bits of the scalar call. The algorithms are those of fdlibm (Sun Microsystems 1993), with selections in
 //! place of its branches; the coefficients stand in [`Float`].
 //!
-//! Measured in `f32` over every argument in range, in units of the last place: sine and cosine 1.58, exp 0.90, ln 0.84,
-//! atan 0.86 (atan2 on random arguments 1.35); in `f64` on random arguments all are within 1 of libm.
+//! Errors in units of the last place (ulp), over all arguments: subnormal numbers, both signs, up to the largest; where a
+//! function overflows, infinity counts as the next number. The worst in `f32` of functions of one number is that of all 2^32
+//! arguments. In `f64`, and for pairs, it is that of samples of every exponent; 1.5 means next to the correctly rounded
+//! number, 2.5 one further. All are found by `tests/ulps`, against correctly rounded functions.
+//!
+//! | function | bound | worst in `f32` | worst in `f64` |
+//! |---|---|---|---|
+//! | `sin` | 2 | 1.58 at 2100.902 | 1.5 |
+//! | `cos` | 2 | 1.58 at 16231.888 | 1.5 |
+//! | `exp` | 2 | 0.90 at -5.1971707 | 1.5 |
+//! | `ln` | 2 | 0.84 at 1.4133185 | 1.5 |
+//! | `atan2` | 2 | 1.44 at (5.7499995e17, -1.4411519e17) | 1.5 |
+//! | `sqrt` | 0.5 | 0.5 | 0.5 |
+//! | `tan` | 5 | 3.69 at 1046.9318 | 3.5 |
+//! | `asin` | 5 | 2.54 at 0.24652393 | 2.5 |
+//! | `acos` | 5 | 2.26 at 0.96930593 | 2.5 |
+//! | `pow` | 2 + 3 \|e ln x\| | 0.60 of it | 0.75 of it |
+//! | gradient noise | 160 u | 31.3 u | 38.9 u |
+//! | distance to scattered points | 16 u | 2.5 u | 2.9 u |
+//!
+//! The last two are absolute errors in units of u = `EPSILON / 2`, at coordinates up to 2^22 in `f32` and 2^51 in `f64`
+//! ([`Lattice::roundings`](super::Lattice::roundings)); the others hold for every argument. Angles beyond 1e5 have the waves
+//! of libm.
 
 use super::float::Float;
 
@@ -54,7 +75,7 @@ pub fn is_beyond_trig<T: Float>(x: T) -> bool {
     x.abs() > T::TRIG_RANGE
 }
 
-/// The sine, off by at most 2 ulp.
+/// The sine, off by at most 2 ulp: beyond `TRIG_RANGE` libm's, off by less than 1 ulp; NaN at infinities.
 #[inline(always)]
 pub fn sin<T: Float>(x: T) -> T {
     if is_beyond_trig(x) {
@@ -64,7 +85,7 @@ pub fn sin<T: Float>(x: T) -> T {
     }
 }
 
-/// The cosine, off by at most 2 ulp.
+/// The cosine, off by at most 2 ulp: beyond `TRIG_RANGE` libm's, off by less than 1 ulp; NaN at infinities.
 #[inline(always)]
 pub fn cos<T: Float>(x: T) -> T {
     if is_beyond_trig(x) {
@@ -243,16 +264,6 @@ mod tests {
     const SEED: u64 = 0xf1e1d;
     const COUNT: usize = 400_000;
 
-    /// The error of `got` in units of the last place of an `f32`, against `exact`.
-    fn ulps_f32(got: f32, exact: f64) -> f64 {
-        let nearest = exact as f32;
-        if got == nearest || got.is_nan() && nearest.is_nan() {
-            return 0.0;
-        }
-        let ulp = (nearest.abs().next_up() - nearest.abs()) as f64;
-        (got as f64 - exact).abs() / ulp
-    }
-
     /// How many numbers lie between two `f64` of one sign.
     fn ulps_f64(got: f64, libm: f64) -> f64 {
         if got == libm || got.is_nan() && libm.is_nan() {
@@ -266,26 +277,6 @@ mod tests {
         got.to_bits().abs_diff(libm.to_bits()) as f64
     }
 
-    /// The worst error over `COUNT` inputs.
-    fn worst<X: std::fmt::Debug + Copy>(
-        name: &str,
-        mut input: impl FnMut(&mut Samples) -> X,
-        error: impl Fn(X) -> f64,
-        bound: f64,
-    ) {
-        let mut samples = Samples::new(SEED);
-        let (mut most, mut at) = (0.0, None);
-        for _ in 0..COUNT {
-            let x = input(&mut samples);
-            let e = error(x);
-            if e > most || e.is_nan() {
-                (most, at) = (e, Some(x));
-            }
-            assert!(e <= bound, "{name}: {e} ulp at {x:?}, seed {SEED:#x}");
-        }
-        println!("{name}: {most:.3} ulp at {at:?}");
-    }
-
     /// Half uniform, half of every magnitude, and sometimes next to a multiple of pi/2.
     fn angle(samples: &mut Samples, range: f64) -> f64 {
         match samples.below(3) {
@@ -293,90 +284,6 @@ mod tests {
             1 => samples.scaled(-20.0, range.log10()),
             _ => samples.uniform(-range, range).trunc() * std::f64::consts::FRAC_PI_2 % range,
         }
-    }
-
-    #[test]
-    fn single_precision_is_within_two_ulp() {
-        let angle32 = |s: &mut Samples| angle(s, 1e5) as f32;
-        worst(
-            "sin",
-            angle32,
-            |x| ulps_f32(sin(x), libm::sin(x.into())),
-            2.0,
-        );
-        worst(
-            "cos",
-            angle32,
-            |x| ulps_f32(cos(x), libm::cos(x.into())),
-            2.0,
-        );
-        let exponent = |s: &mut Samples| s.uniform(-110.0, 95.0) as f32;
-        worst(
-            "exp",
-            exponent,
-            |x| ulps_f32(exp(x), libm::exp(x.into())),
-            2.0,
-        );
-        let positive = |s: &mut Samples| f32::from_bits(s.below(0x7f80_0000) as u32);
-        worst(
-            "ln",
-            positive,
-            |x| ulps_f32(ln(x), libm::log(x.into())),
-            2.0,
-        );
-        let near_one = |s: &mut Samples| s.uniform(0.5, 2.0) as f32;
-        worst(
-            "ln near 1",
-            near_one,
-            |x| ulps_f32(ln(x), libm::log(x.into())),
-            2.0,
-        );
-        let pair = |s: &mut Samples| [0; 2].map(|_| s.scaled(-3.0, 3.0) as f32);
-        worst(
-            "atan2",
-            pair,
-            |[y, x]| ulps_f32(atan2(y, x), libm::atan2(y.into(), x.into())),
-            2.0,
-        );
-        let any = |s: &mut Samples| [0; 2].map(|_| f32::from_bits(s.bits() as u32));
-        worst(
-            "atan2 anywhere",
-            any,
-            |[y, x]| ulps_f32(atan2(y, x), libm::atan2(y.into(), x.into())),
-            2.0,
-        );
-    }
-
-    #[test]
-    fn double_precision_is_within_one_ulp_of_libm() {
-        let angle64 = |s: &mut Samples| angle(s, 1e5);
-        worst("sin", angle64, |x| ulps_f64(sin(x), libm::sin(x)), 1.0);
-        worst("cos", angle64, |x| ulps_f64(cos(x), libm::cos(x)), 1.0);
-        let exponent = |s: &mut Samples| s.uniform(-750.0, 712.0);
-        worst("exp", exponent, |x| ulps_f64(exp(x), libm::exp(x)), 1.0);
-        let positive = |s: &mut Samples| f64::from_bits(s.bits() % f64::INFINITY.to_bits());
-        worst("ln", positive, |x| ulps_f64(ln(x), libm::log(x)), 1.0);
-        let near_one = |s: &mut Samples| s.uniform(0.5, 2.0);
-        worst(
-            "ln near 1",
-            near_one,
-            |x| ulps_f64(ln(x), libm::log(x)),
-            1.0,
-        );
-        let pair = |s: &mut Samples| [0; 2].map(|_| s.scaled(-3.0, 3.0));
-        worst(
-            "atan2",
-            pair,
-            |[y, x]| ulps_f64(atan2(y, x), libm::atan2(y, x)),
-            1.0,
-        );
-        let any = |s: &mut Samples| [0; 2].map(|_| f64::from_bits(s.bits()));
-        worst(
-            "atan2 anywhere",
-            any,
-            |[y, x]| ulps_f64(atan2(y, x), libm::atan2(y, x)),
-            1.0,
-        );
     }
 
     #[test]

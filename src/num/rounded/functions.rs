@@ -13,24 +13,6 @@ const NOT_NEGATIVE: Interval = Interval {
 /// Up to here the cells of a lattice are found exactly, with a margin of a factor of 4.
 const FARTHEST_CELL: f64 = (1 << 20) as f64;
 
-/// By how much a lattice function of an exact point can be off, in `f32`, in units of `u`.
-///
-/// Noise. Hashes and gradients are exact. A place t in the cell is off by u / 2 (below 0 it may round): 3.75 sqrt(3) / 2,
-/// together 4. The fade is t^3 times q = t (6 t - 15) + 10, where q is off by (10 + 15 t) u, plus three roundings of the
-/// product: at most w(t) = t^3 (10 + 15 t) + 3 fade(t). It mixes two faces whose heights differ by at most 1 + 2 m + 2 n,
-/// where m and n are the means of the distances to the two sides along the other axes: the sum over the axes of
-/// w (1 + 2 m + 2 n) is at most 117 (a test finds it). Heights are at most 2: their two terms take 6, each of three mixtures
-/// one after the other 10: 4 of the difference, 4 of its product, 2 of the sum. In all 157.
-///
-/// Distance: each of x - first, - i, - place takes at most 2 u, so a way is off by 6 u an axis, 10.4 in length; the length
-/// of at most 1.49 takes 2.5 u of itself. In all 14.2.
-fn lattice_rounding(lattice: Lattice) -> f64 {
-    match lattice {
-        Lattice::Noise => 160.0 * UNIT,
-        Lattice::Voronoi => 16.0 * UNIT,
-    }
-}
-
 /// The length of a vector.
 fn norm<const N: usize>(components: [f64; N]) -> f64 {
     components.into_iter().fold(0.0, f64::hypot)
@@ -371,7 +353,7 @@ impl Number for Rounded {
         }
         let slope = norm(Interval::lattice_slope(lattice, u, v, w).map(Interval::magnitude));
         let moved = slope.min(lattice.lipschitz()) * norm([x.error, y.error, z.error]);
-        let error = moved + lattice_rounding(lattice);
+        let error = moved + lattice.roundings() * UNIT;
         Self::of(range, wider(range, error), error)
     }
 

@@ -70,11 +70,12 @@ fn in_words(scene: &Scene, world: Option<&World>) -> String {
     if let Some(world) = world {
         text.push_str(&paths_in_words(world));
         text.push_str("\ncompiled in\n");
-        for word in features(scene, world) {
+        let features = Features::new(scene, world);
+        for word in features.words() {
             text.push_str(&format!("  {word}\n"));
         }
         text.push_str(&format!("  closures for {}\n", Level::best().name()));
-        let savings = savings(scene, world);
+        let savings = savings(scene, world, &features);
         if !savings.is_empty() {
             text.push_str("\npassed over\n");
         }
@@ -86,8 +87,7 @@ fn in_words(scene: &Scene, world: Option<&World>) -> String {
 }
 
 /// What is passed over on the way to the picture, and why that changes nothing that is seen, in words.
-fn savings(scene: &Scene, world: &World) -> Vec<String> {
-    let features = Features::new(scene, world);
+fn savings(scene: &Scene, world: &World, features: &Features) -> Vec<String> {
     let mut found = Vec::new();
     let (placed, folded) = folds(&scene.shown);
     if placed > folded {
@@ -356,10 +356,6 @@ fn paths_in_words(world: &World) -> String {
     text
 }
 
-fn features(scene: &Scene, world: &World) -> Vec<&'static str> {
-    Features::new(scene, world).words()
-}
-
 /// All of it for programs.
 fn to_json(scene: &Scene, world: Option<&World>) -> Value {
     let mut left = MAX_NODES;
@@ -377,8 +373,9 @@ fn to_json(scene: &Scene, world: Option<&World>) -> Value {
             .map(|(way, node)| json!({ "path": way, "object": object_name(node) }))
             .collect();
         value["parts"] = json!(parts);
-        value["features"] = json!(features(scene, world));
-        value["passed_over"] = json!(savings(scene, world));
+        let features = Features::new(scene, world);
+        value["features"] = json!(features.words());
+        value["passed_over"] = json!(savings(scene, world, &features));
         value["processor"] = json!(Level::best().name());
     }
     value

@@ -41,13 +41,16 @@ pub fn summary(statistics: &Statistics, stages: &Stages) -> String {
     .filter(|(n, _)| *n > 0)
     .map(|(n, kind)| format!("{} {kind}", grouped(*n)))
     .collect();
-    let [width, height] = s.size.map(u64::from);
-    let refined = 100.0 * s.refined_pixels as f64 / (width * height) as f64;
-    let samples = format!(
-        "samples       {} in {refined:.1} % of the pixels, else 1",
-        s.samples
-    );
-    let lines = [
+    let mut lines = Vec::new();
+    if s.refined_pixels > 0 {
+        let [width, height] = s.size.map(u64::from);
+        let refined = 100.0 * s.refined_pixels as f64 / (width * height) as f64;
+        lines.push(format!(
+            "samples       {} in {refined:.1} % of the pixels, else 1",
+            s.samples
+        ));
+    }
+    lines.extend([
         format!("rays          {}: {}", grouped(total), of_kind.join(", ")),
         format!(
             "camera rays   {} hits, {} misses, {} unknown",
@@ -65,9 +68,7 @@ pub fn summary(statistics: &Statistics, stages: &Stages) -> String {
             stages.load, stages.compile, time.trace, time.shade, stages.write
         ),
         format!("on {}", threads(s)),
-    ];
-    let samples = (s.refined_pixels > 0).then_some(samples);
-    let lines: Vec<String> = samples.into_iter().chain(lines).collect();
+    ]);
     lines.join("\n") + "\n"
 }
 

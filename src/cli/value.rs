@@ -125,7 +125,7 @@ pub fn positive(text: &str) -> Result<f64, String> {
 /// A sentence on what is wrong with it.
 pub fn omega(text: &str) -> Result<f64, String> {
     let x = number(text)?;
-    (1.0..2.0)
+    Settings::OMEGAS
         .contains(&x)
         .then_some(x)
         .ok_or(format!("`{text}` is not at least 1 and below 2"))

@@ -262,7 +262,9 @@ impl<'a> Machine<'a> {
             (1.0, 1e6),
             default.max_steps,
         );
-        let omegas = ("at least 1 and below 2", |x: f64| (1.0..2.0).contains(&x));
+        let omegas = ("at least 1 and below 2", |x: f64| {
+            Settings::OMEGAS.contains(&x)
+        });
         let seeds = ("a whole number from 0 to 2^53", whole(0.0, 2f64.powi(53)));
         let settings = Settings {
             size: size.map_or(default.size, |s| s.map(|x| x as u32)),

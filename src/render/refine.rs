@@ -2,7 +2,7 @@
 //!
 //! One sample in the middle of each pixel says what is seen, where it faces, and its colour. Where all of this is about that of
 //! the eight neighbours, more samples would find hardly anything else; what is smaller than a pixel and lies between the
-//! middles is missed. Sources: Whitted 1980, section 4, who divides pixels whose corners differ in colour; here parts and
+//! middles is missed. Source: Whitted 1980, who divides pixels whose corners differ in colour; here parts and
 //! normals count too, so that edges between like colours are found.
 
 use super::Channel;

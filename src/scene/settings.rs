@@ -1,5 +1,7 @@
 //! How the picture is made.
 
+use std::ops::Range;
+
 /// Which way rays find surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
@@ -110,7 +112,7 @@ pub struct Settings {
     pub max_steps: u32,
     /// Which way rays find surfaces.
     pub method: Method,
-    /// How much longer the steps of [`Method::Relaxed`] are than what is known to be free; in [1, 2).
+    /// How much longer the steps of [`Method::Relaxed`] are than what is known to be free; one of [`Settings::OMEGAS`].
     pub omega: f64,
     /// What random choices start from.
     pub seed: u64,
@@ -119,6 +121,9 @@ pub struct Settings {
 impl Settings {
     /// The largest width or height of a picture, in pixels; a square of it takes 3 GiB of film.
     pub const MAX_SIDE: u32 = 16_384;
+
+    /// What [`Settings::omega`] may be: from 2 on, the balls of two places in a row overlap only where the field grows.
+    pub const OMEGAS: Range<f64> = 1.0..2.0;
 }
 
 impl Default for Settings {

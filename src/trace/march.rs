@@ -4,6 +4,7 @@
 //! the scalar closure, whose bits are the same.
 
 use super::Ray;
+use super::along::moving;
 use super::bundle::WIDTH;
 use super::evidence::{Trail, Witness};
 use super::method::{Ending, Segment, Walk};
@@ -150,13 +151,7 @@ fn finish_single<W: Walk>(part: &Marched, rays: &[Ray], seat: &mut Seat<W>) -> W
         let p = ray.at(seat.walk.t());
         let (value, slope) = match &part.slope {
             Some(slope) if W::NEEDS_SLOPE => {
-                let along = |value: f64, rate: f64| Dual::new(value, [rate]);
-                let d = ray.direction;
-                let field = (slope.single)(&Vec3::new(
-                    along(p.x, d.x),
-                    along(p.y, d.y),
-                    along(p.z, d.z),
-                ));
+                let field = (slope.single)(&moving(p, ray.direction));
                 (field.value, field.partial[0])
             }
             _ => (part.single()(&Vec3::new(p.x, p.y, p.z)), 0.0),

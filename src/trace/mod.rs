@@ -5,6 +5,7 @@
 //! combinations (`stages`) in packets of lanes (`stride`, `newton`); the others are small machines, one for each ray
 //! (`method`). What a ray finds depends neither on the rays it is traced with nor on the number of threads.
 
+mod along;
 pub mod analytic;
 mod apart;
 mod beam;

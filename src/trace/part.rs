@@ -293,16 +293,14 @@ impl Marched {
         // Scouts may be that far outside of it.
         let off = PLACES * UNIT * self.region.radius();
         let region = self.region.inflate(off);
-        let range = |axis: usize| Interval::new(region.low[axis], region.high[axis]);
-        let [x, y, z] = [0, 1, 2].map(|axis| Bent::variable(range(axis), axis));
-        let bent = compile::<Bent>(&self.node)(&Vec3::new(x, y, z));
+        let bent = bent(&self.node, region);
         // The constant of a graph would be derived anew, which takes long.
         let slope = if self.node.has_graph() {
             bent.steep().slope().min(self.node.lipschitz_everywhere())
         } else {
             self.node.lipschitz_over(region)
         };
-        let [x, y, z] = [0, 1, 2].map(|axis| Rounded::new(range(axis), 0.0));
+        let [x, y, z] = ranges(region).map(|range| Rounded::new(range, 0.0));
         let own = compile::<Rounded>(&self.node)(&Vec3::new(x, y, z)).error();
         let error = own + slope * off;
         let is_enough = error <= COARSEST * self.lipschitz * self.region.radius_about_centre();
@@ -356,6 +354,18 @@ impl Marched {
         let graph = || Some(compile_graph(&Arc::new(self.node.gradient()?), level));
         self.gradient_graph.get_or_init(graph).as_ref()
     }
+}
+
+/// The coordinates in a box.
+fn ranges(region: Bounds) -> [Interval; 3] {
+    [0, 1, 2].map(|axis| Interval::new(region.low[axis], region.high[axis]))
+}
+
+/// How much a field bends at most in a box.
+pub(super) fn bent(node: &Node, region: Bounds) -> Bent {
+    let [x, y, z] = ranges(region);
+    let [x, y, z] = [(x, 0), (y, 1), (z, 2)].map(|(range, axis)| Bent::variable(range, axis));
+    compile::<Bent>(node)(&Vec3::new(x, y, z))
 }
 
 /// The fault of a shape that has no finite constant.

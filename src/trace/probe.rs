@@ -10,11 +10,14 @@
 //! in the sublevels of the catalogue.
 
 use super::Ray;
+use super::along::{moving, stretched};
+use super::analytic::Ball;
 use super::hierarchy::clip;
+use super::part::bent;
 use crate::catalogue::{AnyModifier, AnyPrimitive, Blend, Bounds, Combination, Offset};
 use crate::catalogue::{Operation, Shell, Similarity, with_compiled_blend};
 use crate::field::{Closure, Level, compile, compile_convex};
-use crate::num::{Bent, Dual, Interval, Vec3};
+use crate::num::{Dual, Interval, Vec3};
 use crate::scene::{Node, Shape};
 use glam::DVec3;
 
@@ -372,13 +375,7 @@ impl Leaf {
     fn slopes(&self, line: &Line, value: f64, steepest: f64) -> [f64; 2] {
         let Line { from, reach, .. } = *line;
         if let Some(tangent) = &self.tangent {
-            let (p, d) = (line.at(from), line.direction);
-            let moving = |x: f64, rate: f64| Dual::new(x, [rate]);
-            let here = tangent(&Vec3::new(
-                moving(p.x, d.x),
-                moving(p.y, d.y),
-                moving(p.z, d.z),
-            ));
+            let here = tangent(&moving(line.at(from), line.direction));
             let end = line.at(from + reach);
             let chord = ((self.value)(&Vec3::new(end.x, end.y, end.z)) - value) / reach;
             // Where one is not a number, the constant says enough; in this order max and min then take the constant.
@@ -387,18 +384,8 @@ impl Leaf {
         let Some(ranges) = &self.ranges else {
             return [-steepest, steepest];
         };
-        let t = Interval::new(from, from + reach);
-        let along = |origin: f64, direction: f64| {
-            let rate = Interval::point(direction);
-            Dual::new(Interval::point(origin) + rate * t, [rate])
-        };
-        let (o, d) = (line.origin, line.direction);
-        let field = ranges(&Vec3::new(
-            along(o.x, d.x),
-            along(o.y, d.y),
-            along(o.z, d.z),
-        ));
-        let slope = field.partial[0];
+        let d = line.direction;
+        let slope = ranges(&stretched(line.origin, d, [from, from + reach])).partial[0];
         let mut lines = [slope.lo.max(-steepest), slope.hi.min(steepest)];
         if let Some(([falls, rises], gradient)) = &self.bend {
             let p = line.at(from);
@@ -469,9 +456,7 @@ fn bend(node: &Node, region: Bounds) -> Option<([f64; 2], Closure<Dual<f64, 3>>)
     if !region.is_finite() || region.is_empty() {
         return None;
     }
-    let range = |axis: usize| Interval::new(region.low[axis], region.high[axis]);
-    let [x, y, z] = [0, 1, 2].map(|axis| Bent::variable(range(axis), axis));
-    let bent = compile::<Bent>(node)(&Vec3::new(x, y, z));
+    let bent = bent(node, region);
     let bend = [-bent.low(), bent.high()];
     let is_known = bend.iter().all(|bend| bend.is_finite());
     is_known.then(|| (bend.map(|bend| bend.max(0.0)), compile(node)))
@@ -487,20 +472,16 @@ fn shorter(length: f64) -> f64 {
     (length * (1.0 - ROUNDING)).max(0.0)
 }
 
-/// Where a line from `place` enters and leaves a ball about the origin: infinitely far where it does not meet it. Stable, as
-/// [`super::analytic::Ball::roots`].
+/// Where a line from `place` enters and leaves a ball about the origin: infinitely far where it does not meet it ahead.
 fn ball(place: DVec3, way: DVec3, radius: f64) -> (f64, f64) {
-    let b = place.dot(way);
-    let distance = (place - way * b).length();
-    let h = (radius - distance) * (radius + distance);
-    if radius <= 0.0 || h < 0.0 {
-        return (f64::INFINITY, f64::NEG_INFINITY);
+    let centre = DVec3::ZERO;
+    let (enter, leave, half_chord) = Ball { centre, radius }.roots(place, way);
+    let is_met = radius > 0.0 && half_chord >= 0.0 && leave >= 0.0;
+    if is_met {
+        (enter, leave)
+    } else {
+        (f64::INFINITY, f64::NEG_INFINITY)
     }
-    let half = h.sqrt();
-    if -b + half < 0.0 {
-        return (f64::INFINITY, -b + half);
-    }
-    (-b - half, -b + half)
 }
 
 #[cfg(test)]

@@ -1,13 +1,14 @@
 //! Lanes that go on by themselves: those that run out of steps, meet what is not a number, start inside of a convex shape,
 //! or walk along a sheet. And those that are stuck, which ask ranges once how closely they should look.
 
+use super::along::moving;
 use super::evidence::{Trail, Witness};
 use super::method::{Certified, Convex, Ending, Segment, Walk, finest};
 use super::packet::{Lane, Packet, Rules, patience, place_in_cell, state};
 use super::part::{Marched, Slope};
 use super::survey::{decided, is_told};
 use super::{Footprint, Ray, Verdict};
-use crate::num::{Dual, Vec3};
+use crate::num::Vec3;
 use glam::DVec3;
 
 /// The share of the way on before a lane that is stuck over which ranges are asked.
@@ -114,10 +115,7 @@ impl Packet {
         let mut walk = Convex::begin(segment);
         self.evaluations[lane] = 0;
         loop {
-            let (p, d) = (ray.at(walk.t()), ray.direction);
-            let along = |value: f64, rate: f64| Dual::new(value, [rate]);
-            let place = Vec3::new(along(p.x, d.x), along(p.y, d.y), along(p.z, d.z));
-            let field = (slope.single)(&place);
+            let field = (slope.single)(&moving(ray.at(walk.t()), ray.direction));
             self.evaluations[lane] += 1;
             if let Some(ending) = walk.observe(field.value, field.partial[0]) {
                 return ending;

@@ -1,11 +1,12 @@
 //! The driver of methods that ask for ranges along a ray: one ray at a time. They also answer what others leave open.
 
 use super::Ray;
+use super::along::stretched;
 use super::evidence::{Trail, Witness};
 use super::march::{Job, Walked};
 use super::method::{Ending, Resolver, Segment, Walk};
 use super::part::Marched;
-use crate::num::{Dual, Interval, Vec3};
+use crate::num::{Interval, Vec3};
 
 /// Walks all jobs through `part` by the method `W`.
 pub(super) fn survey<W: Walk>(part: &Marched, rays: &[Ray], jobs: &[Job]) -> Vec<Walked> {
@@ -69,40 +70,27 @@ fn walk<W: Walk>(part: &Marched, ray: &Ray, job: &Job) -> Walked {
     let mut walk = W::begin(job.segment);
     let mut evaluations = 0;
     let mut trail = Trail::default();
+    let mut look = |t: f64, value: f64| {
+        let samples = trail.extend(&job.segment, (t, value));
+        if let Some(samples) = samples.filter(|_| W::RESTS_ON_CONSTANT) {
+            part.evidence.add(Witness::on(ray, samples));
+        }
+    };
     loop {
         evaluations += 1;
-        if let Some(reach) = walk.probe() {
-            let t = walk.t();
+        let t = walk.t();
+        let ending = if let Some(reach) = walk.probe() {
             let ahead = part.probe().ask(ray, t, reach);
-            let samples = trail.extend(&job.segment, (t, ahead.value));
-            if let Some(samples) = samples {
-                part.evidence.add(Witness::on(ray, samples));
-            }
-            if let Some(ending) = walk.ahead(ahead) {
-                return Walked {
-                    ray: job.ray,
-                    ending,
-                    evaluations,
-                };
-            }
-            continue;
-        }
-        let ending = match walk.reach() {
-            Some(reach) => {
-                let (value, slope) = ranges(part, ray, walk.t(), reach);
-                walk.survey(value, slope)
-            }
-            None => {
-                let (t, p) = (walk.t(), ray.at(walk.t()));
-                let value = part.single()(&Vec3::new(p.x, p.y, p.z));
-                if let Some(samples) = trail
-                    .extend(&job.segment, (t, value))
-                    .filter(|_| W::RESTS_ON_CONSTANT)
-                {
-                    part.evidence.add(Witness::on(ray, samples));
-                }
-                walk.observe(value, 0.0)
-            }
+            look(t, ahead.value);
+            walk.ahead(ahead)
+        } else if let Some(reach) = walk.reach() {
+            let (value, slope) = ranges(part, ray, t, reach);
+            walk.survey(value, slope)
+        } else {
+            let p = ray.at(t);
+            let value = part.single()(&Vec3::new(p.x, p.y, p.z));
+            look(t, value);
+            walk.observe(value, 0.0)
         };
         if let Some(ending) = ending {
             return Walked {
@@ -116,16 +104,6 @@ fn walk<W: Walk>(part: &Marched, ray: &Ray, job: &Job) -> Walked {
 
 /// The ranges of the field and of its derivative along the ray, from `from` to `to`.
 fn ranges(part: &Marched, ray: &Ray, from: f64, to: f64) -> (Interval, Interval) {
-    let t = Interval::new(from, to);
-    let along = |origin: f64, direction: f64| {
-        let rate = Interval::point(direction);
-        Dual::new(Interval::point(origin) + rate * t, [rate])
-    };
-    let (o, d) = (ray.origin, ray.direction);
-    let field = part.ranges()(&Vec3::new(
-        along(o.x, d.x),
-        along(o.y, d.y),
-        along(o.z, d.z),
-    ));
+    let field = part.ranges()(&stretched(ray.origin, ray.direction, [from, to]));
     (field.value, field.partial[0])
 }

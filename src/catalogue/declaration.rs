@@ -326,7 +326,7 @@ impl Parametric for Vec<[f64; 3]> {
 }
 
 /// An entry that a script can make from arguments.
-pub trait Declared: Sized {
+pub trait Declared: Clone + Send + Sync + 'static {
     /// What is said about the entry.
     const DECLARATION: Declaration;
 
@@ -470,6 +470,17 @@ macro_rules! list {
             };
         }
         pub(crate) use $with;
+
+        $(
+            impl<'a> TryFrom<&'a $any> for &'a $type {
+                type Error = ();
+
+                /// The entry inside, if it is of this type.
+                fn try_from(any: &'a $any) -> Result<Self, ()> {
+                    if let $any::$type(entry) = any { Ok(entry) } else { Err(()) }
+                }
+            }
+        )+
 
         impl $any {
             /// The declarations of all entries of this kind.

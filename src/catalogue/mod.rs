@@ -34,7 +34,7 @@ pub use declaration::{
 };
 pub use facts::{Class, Traits};
 pub use function::Function;
-pub use modifier::{Modifier, Similarity};
+pub use modifier::{Modifier, Placing, Similarity};
 pub use modifiers::{
     Bend, Elongate, Extrude, Mirror, MirroredRepeat, Offset, Polar, Repeat, Revolve, Rotate, Scale,
     Shear, Shell, Taper, Translate, Twist, Warp,

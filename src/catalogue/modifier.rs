@@ -160,3 +160,44 @@ impl Similarity {
         self.rows == Self::IDENTITY.rows && self.scale == 1.0
     }
 }
+
+/// A [`Similarity`] whose numbers are kept as `N` keeps constants, for what is placed again and again.
+pub struct Placing<N: Number> {
+    rows: [[N::Constant; 3]; 3],
+    shift: [N::Constant; 3],
+    scale: N::Constant,
+}
+
+impl<N: Number> Placing<N> {
+    /// The map, made ready.
+    pub fn new(map: &Similarity) -> Self {
+        Self {
+            rows: map.rows.map(|row| row.map(N::constant)),
+            shift: map.shift.map(N::constant),
+            scale: N::constant(map.scale),
+        }
+    }
+
+    /// As [`Similarity::point`].
+    #[inline(always)]
+    pub fn point(&self, p: &Vec3<N>) -> Vec3<N> {
+        let turned = Vec3::new(
+            Vec3::spread(self.rows[0]).dot(*p),
+            Vec3::spread(self.rows[1]).dot(*p),
+            Vec3::spread(self.rows[2]).dot(*p),
+        );
+        turned + Vec3::spread(self.shift)
+    }
+
+    /// As [`Placing::point`], of a map that only moves.
+    #[inline(always)]
+    pub fn moved(&self, p: &Vec3<N>) -> Vec3<N> {
+        *p + Vec3::spread(self.shift)
+    }
+
+    /// The field outside, given the child's at [`Placing::point`].
+    #[inline(always)]
+    pub fn field(&self, value: N) -> N {
+        value * N::spread(self.scale)
+    }
+}

@@ -76,7 +76,7 @@ impl Run {
     /// As [`Edge::crossing`], outside of the box: there the whole run is like an edge between its ends.
     #[inline(always)]
     fn crossing<N: Number>(&self, x: N, y: N, sign: N) -> N {
-        let [low, high] = self.heights.map(N::splat);
+        let (low, high) = (N::splat(self.heights[0]), N::splat(self.heights[1]));
         let is_left = N::select_lt(x, N::splat(self.centre[0]), -sign, sign);
         N::select_lt(y, low, sign, N::select_lt(y, high, is_left, sign))
     }

@@ -17,6 +17,9 @@ pub type Closure<N> = Arc<dyn Fn(&Vec3<N>) -> N + Send + Sync>;
 /// A graph, ready to be evaluated: writes its outputs.
 pub type Walked<N> = Arc<dyn Fn(&Vec3<N>, &mut [N]) + Send + Sync>;
 
+/// Several shapes of a union, ready to be joined to what comes before them: takes the point and the field so far.
+type Stretch<N> = Arc<dyn Fn(&Vec3<N>, N) -> N + Send + Sync>;
+
 /// The walk over a graph, with the instructions of `level`, or of the best level below it that the processor has.
 pub fn compile_graph<N: Number>(graph: &Arc<Graph>, level: Level) -> Walked<N> {
     match level.min(Level::supported()) {
@@ -163,8 +166,9 @@ const MANY_REGISTERS: usize = 32;
 macro_rules! builders {
     ($(#[$feature:meta])* mod $level:ident; whole: $whole:literal) => {
         mod $level {
-            use super::{Closure, FEW_REGISTERS, MANY_REGISTERS, SOME_REGISTERS, Walked};
-            use crate::catalogue::{AnyModifier, AnyPrimitive, Blend, Combination, Modifier, Operation, Primitive, Similarity};
+            use super::{Closure, FEW_REGISTERS, MANY_REGISTERS, SOME_REGISTERS, Stretch, Walked};
+            use crate::catalogue::{AnyBlend, AnyModifier, AnyPrimitive, Blend, Combination, Modifier, Operation, Placing};
+            use crate::catalogue::{Capsule, Cuboid, Cylinder, Primitive, Similarity, Sphere, Torus};
             use crate::catalogue::{with_blend, with_compiled_blend, with_compiled_modifier, with_compiled_primitive};
             use crate::catalogue::{with_modifier, with_primitive};
             use crate::num::{Number, Vec3};
@@ -202,10 +206,10 @@ macro_rules! builders {
                 let compiled = match node.shape() {
                     Shape::Primitive(primitive) => primitive_at(primitive, Similarity::IDENTITY),
                     Shape::Field(_) => None,
-                    Shape::Combination(combination, children) => {
-                        let children = children.iter().map(|c| build::<N, GRAPHS>(c)).collect();
-                        combined(combination, children)
-                    }
+                    Shape::Combination(combination, children) => match united::<N, GRAPHS>(combination, children) {
+                        None => combined(combination, children.iter().map(|c| build::<N, GRAPHS>(c)).collect()),
+                        stretches => stretches,
+                    },
                     Shape::Modifier(modifier, child) => modifying(modifier, build::<N, GRAPHS>(child)),
                     Shape::Displacement(_) => None,
                 };
@@ -223,23 +227,21 @@ macro_rules! builders {
             }
 
             $(#[$feature])*
-            fn leaf<P: Primitive + Send + Sync + 'static, N: Number>(leaf: P, map: Similarity) -> Closure<N> {
-                let scale = N::splat(map.scale);
+            fn leaf<P: Primitive, N: Number>(leaf: P, map: Similarity) -> Closure<N> {
+                let placing = Placing::new(&map);
                 if map.is_translation() {
-                    let shift = map.shift;
-                    return Arc::new(move |p: &Vec3<N>| leaf.distance(&(*p + Vec3::splat(shift))));
+                    return Arc::new(move |p: &Vec3<N>| leaf.distance(&placing.moved(p)));
                 }
-                Arc::new(move |p: &Vec3<N>| leaf.distance(&map.point(p)) * scale)
+                Arc::new(move |p: &Vec3<N>| placing.field(leaf.distance(&placing.point(p))))
             }
 
             $(#[$feature])*
             pub(super) fn placed<N: Number>(child: Closure<N>, map: Similarity) -> Closure<N> {
-                let scale = N::splat(map.scale);
+                let placing = Placing::new(&map);
                 if map.is_translation() {
-                    let shift = map.shift;
-                    return Arc::new(move |p: &Vec3<N>| child(&(*p + Vec3::splat(shift))));
+                    return Arc::new(move |p: &Vec3<N>| child(&placing.moved(p)));
                 }
-                Arc::new(move |p: &Vec3<N>| child(&map.point(p)) * scale)
+                Arc::new(move |p: &Vec3<N>| placing.field(child(&placing.point(p))))
             }
 
             /// The closure of what a modifier makes of a closure that is there already.
@@ -253,7 +255,7 @@ macro_rules! builders {
             }
 
             $(#[$feature])*
-            fn modified<M: Modifier + Send + Sync + 'static, N: Number>(modifier: M, child: Closure<N>) -> Closure<N> {
+            fn modified<M: Modifier, N: Number>(modifier: M, child: Closure<N>) -> Closure<N> {
                 Arc::new(move |p: &Vec3<N>| modifier.apply(p, |q| child(q)))
             }
 
@@ -268,8 +270,101 @@ macro_rules! builders {
                 }
             }
 
+            /// The closure of a union in which neighbours of one kind are a loop, not a call for each; none where there are no
+            /// such neighbours.
             $(#[$feature])*
-            fn joined<B: Blend + Send + Sync + 'static, N: Number>(
+            fn united<N: Number, const GRAPHS: bool>(combination: &Combination, nodes: &[Arc<Node>]) -> Option<Closure<N>> {
+                if !is_whole::<N>() || combination.operation != Operation::Union {
+                    return None;
+                }
+                match &combination.blend {
+                    AnyBlend::Hard(blend) => in_stretches::<_, N, GRAPHS>(blend, nodes),
+                    AnyBlend::Smooth(blend) => in_stretches::<_, N, GRAPHS>(blend, nodes),
+                    _ => None,
+                }
+            }
+
+            $(#[$feature])*
+            fn in_stretches<B: Blend, N: Number, const GRAPHS: bool>(
+                blend: &B,
+                nodes: &[Arc<Node>],
+            ) -> Option<Closure<N>> {
+                let (first, mut rest) = nodes.split_first()?;
+                let mut stretches: Vec<Stretch<N>> = Vec::new();
+                while let Some((next, others)) = rest.split_first() {
+                    // Those whose fields take little longer than a call.
+                    let siblings = siblings::<Sphere, _, N>(blend, rest)
+                        .or_else(|| siblings::<Cuboid, _, N>(blend, rest))
+                        .or_else(|| siblings::<Cylinder, _, N>(blend, rest))
+                        .or_else(|| siblings::<Capsule, _, N>(blend, rest))
+                        .or_else(|| siblings::<Torus, _, N>(blend, rest));
+                    if let Some((stretch, count)) = siblings {
+                        stretches.push(stretch);
+                        rest = &rest[count..];
+                        continue;
+                    }
+                    let (blend, child) = (B::clone(blend), build::<N, GRAPHS>(next));
+                    stretches.push(Arc::new(move |p: &Vec3<N>, value: N| Operation::Union.join(&blend, value, child(p))));
+                    rest = others;
+                }
+                if stretches.len() + 1 == nodes.len() {
+                    return None;
+                }
+                let first = build::<N, GRAPHS>(first);
+                Some(Arc::new(move |p: &Vec3<N>| {
+                    let mut value = first(p);
+                    for stretch in &stretches {
+                        value = stretch(p, value);
+                    }
+                    value
+                }))
+            }
+
+            /// The primitives of one kind that `nodes` begin with, and how many they are; none where there are fewer than two.
+            $(#[$feature])*
+            fn siblings<P: Primitive, B: Blend, N: Number>(
+                blend: &B,
+                nodes: &[Arc<Node>],
+            ) -> Option<(Stretch<N>, usize)>
+            where
+                for<'a> &'a P: TryFrom<&'a AnyPrimitive>,
+            {
+                let is_moved = nodes.first()?.unplaced().0.is_translation();
+                let mut leaves: Vec<(P, Placing<N>)> = Vec::new();
+                for node in nodes {
+                    let (map, inner) = node.unplaced();
+                    let Shape::Primitive(primitive) = inner.shape() else { break };
+                    let Ok(leaf) = <&P>::try_from(primitive) else { break };
+                    if map.is_translation() != is_moved {
+                        break;
+                    }
+                    leaves.push((P::clone(leaf), Placing::new(&map)));
+                }
+                let (blend, count) = (B::clone(blend), leaves.len());
+                if count < 2 {
+                    return None;
+                }
+                let stretch: Stretch<N> = if is_moved {
+                    Arc::new(move |p: &Vec3<N>, mut value: N| {
+                        for (leaf, placing) in &leaves {
+                            value = Operation::Union.join(&blend, value, leaf.distance(&placing.moved(p)));
+                        }
+                        value
+                    })
+                } else {
+                    Arc::new(move |p: &Vec3<N>, mut value: N| {
+                        for (leaf, placing) in &leaves {
+                            let own = placing.field(leaf.distance(&placing.point(p)));
+                            value = Operation::Union.join(&blend, value, own);
+                        }
+                        value
+                    })
+                };
+                Some((stretch, count))
+            }
+
+            $(#[$feature])*
+            fn joined<B: Blend, N: Number>(
                 operation: Operation,
                 blend: B,
                 mut children: Vec<Closure<N>>,

@@ -123,6 +123,8 @@ impl<N: Number, const K: usize> Neg for Dual<N, K> {
 }
 
 impl<N: Number, const K: usize> Number for Dual<N, K> {
+    type Constant = N::Constant;
+
     const LEAVES_OUT: bool = N::LEAVES_OUT;
 
     #[inline(always)]
@@ -131,9 +133,14 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
     }
 
     #[inline(always)]
-    fn splat(x: f64) -> Self {
+    fn constant(x: f64) -> N::Constant {
+        N::constant(x)
+    }
+
+    #[inline(always)]
+    fn spread(x: N::Constant) -> Self {
         Self {
-            value: N::splat(x),
+            value: N::spread(x),
             partial: [N::splat(0.0); K],
         }
     }
@@ -225,7 +232,14 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
             self.value.direction_cosine(length),
             o.value.direction_cosine(length),
         );
-        self.zip(o, length, |a, b| u * a + v * b)
+        let mut partial = self.partial;
+        for (d, e) in partial.iter_mut().zip(o.partial) {
+            *d = u * *d + v * e;
+        }
+        Self {
+            value: length,
+            partial,
+        }
     }
 
     #[inline(always)]

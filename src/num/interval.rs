@@ -300,7 +300,13 @@ impl Neg for Interval {
 }
 
 impl Number for Interval {
-    fn splat(x: f64) -> Self {
+    type Constant = f64;
+
+    fn constant(x: f64) -> f64 {
+        x
+    }
+
+    fn spread(x: f64) -> Self {
         Self::point(x)
     }
 

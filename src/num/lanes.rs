@@ -116,6 +116,8 @@ impl<T: Float, const W: usize> Neg for Lanes<T, W> {
 }
 
 impl<T: Float, const W: usize> Number for Lanes<T, W> {
+    type Constant = T;
+
     const LANES: usize = W;
     const LEAVES_OUT: bool = true;
 
@@ -129,8 +131,13 @@ impl<T: Float, const W: usize> Number for Lanes<T, W> {
     }
 
     #[inline(always)]
-    fn splat(x: f64) -> Self {
-        Self([T::from_f64(x); W])
+    fn constant(x: f64) -> T {
+        T::from_f64(x)
+    }
+
+    #[inline(always)]
+    fn spread(x: T) -> Self {
+        Self([x; W])
     }
 
     #[inline(always)]

@@ -33,8 +33,20 @@ pub trait Number:
     /// Whether [`Number::may_be_below`] says anything. Then what has no say may be left out.
     const LEAVES_OUT: bool = false;
 
+    /// What a constant is kept as where it is used again and again: of lanes one of them.
+    type Constant: Copy + Send + Sync + 'static;
+
+    /// `x` as it is kept.
+    fn constant(x: f64) -> Self::Constant;
+
+    /// What was kept, as a number (rounded to the type; in an interval, an interval that contains it).
+    fn spread(constant: Self::Constant) -> Self;
+
     /// The constant `x` (rounded to the type; in an interval, an interval that contains `x`).
-    fn splat(x: f64) -> Self;
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        Self::spread(Self::constant(x))
+    }
 
     /// The smaller of two; a NaN operand is passed over where the other is a number; of two equals (two zeros) the second.
     fn min(self, other: Self) -> Self;

@@ -6,6 +6,8 @@ use super::{Number, kernels};
 macro_rules! scalar {
     ($type:ty) => {
         impl Number for $type {
+            type Constant = Self;
+
             const LEAVES_OUT: bool = true;
 
             #[inline(always)]
@@ -13,8 +15,12 @@ macro_rules! scalar {
                 self < other
             }
             #[inline(always)]
-            fn splat(x: f64) -> Self {
+            fn constant(x: f64) -> Self {
                 x as $type
+            }
+            #[inline(always)]
+            fn spread(x: Self) -> Self {
+                x
             }
             #[inline(always)]
             fn min(self, o: Self) -> Self {

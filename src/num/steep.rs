@@ -160,7 +160,13 @@ impl Neg for Steep {
 }
 
 impl Number for Steep {
-    fn splat(x: f64) -> Self {
+    type Constant = f64;
+
+    fn constant(x: f64) -> f64 {
+        x
+    }
+
+    fn spread(x: f64) -> Self {
         Self {
             range: Dual::splat(x),
             slope: 0.0,

@@ -27,6 +27,12 @@ impl<N: Number> Vec3<N> {
         Self::new(N::splat(v[0]), N::splat(v[1]), N::splat(v[2]))
     }
 
+    /// The vector of constants as they are kept.
+    #[inline(always)]
+    pub fn spread(v: [N::Constant; 3]) -> Self {
+        Self::new(N::spread(v[0]), N::spread(v[1]), N::spread(v[2]))
+    }
+
     /// `f` of each component.
     #[inline(always)]
     pub fn each(self, f: impl Fn(N) -> N) -> Self {

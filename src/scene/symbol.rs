@@ -88,7 +88,13 @@ impl Neg for Symbol {
 }
 
 impl Number for Symbol {
-    fn splat(x: f64) -> Self {
+    type Constant = f64;
+
+    fn constant(x: f64) -> f64 {
+        x
+    }
+
+    fn spread(x: f64) -> Self {
         written(|graph| graph.constant(x))
     }
     fn min(self, other: Self) -> Self {

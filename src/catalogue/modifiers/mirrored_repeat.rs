@@ -1,6 +1,6 @@
 //! Mirrored repetition.
 
-use super::repeat::whole_counts;
+use super::repeat::{is_even, whole_counts};
 use crate::catalogue::{Bounds, Class, Modifier, Range, Traits, declaration::entry};
 use crate::num::{Number, Vec3};
 
@@ -18,8 +18,9 @@ entry! {
 }
 
 /// 1 for an even whole number, -1 for an odd one.
+#[inline(always)]
 fn parity(n: f64) -> f64 {
-    if n % 2.0 == 0.0 { 1.0 } else { -1.0 }
+    if is_even(n) { 1.0 } else { -1.0 }
 }
 
 impl MirroredRepeat {
@@ -30,9 +31,10 @@ impl MirroredRepeat {
 
     /// Where cells lie: centred on whole multiples of the spacing for an odd or infinite count, half way between for an
     /// even one. The cell next above the middle is not mirrored.
+    #[inline(always)]
     fn shift(&self, axis: usize) -> f64 {
         let count = self.count[axis];
-        if count.is_finite() && count % 2.0 == 0.0 {
+        if count.is_finite() && is_even(count) {
             0.5
         } else {
             0.0
@@ -61,7 +63,8 @@ impl MirroredRepeat {
         if count.is_infinite() {
             return wave * spacing;
         }
-        let [first, last] = self.ends(axis).map(N::splat);
+        let [first, last] = self.ends(axis);
+        let (first, last) = (N::splat(first), N::splat(last));
         let zero = N::splat(0.0);
         let beyond = (place - end).max(zero) * last + (place + end).min(zero) * first;
         (wave + beyond) * spacing

@@ -46,22 +46,15 @@ struct Row {
     asked: f64,
     /// Whether a copy that is not asked could have a smaller field than those that are.
     is_guarded: bool,
+    /// Where the grid lies: copies stand on whole multiples of the spacing for an odd or infinite count, half way
+    /// between for an even one.
+    shift: f64,
 }
 
 /// Along one axis no more copies are asked than this.
 const MOST_ASKED: f64 = 9.0;
 
 impl Row {
-    /// Where the grid lies: copies stand on whole multiples of the spacing for an odd or infinite count, half way
-    /// between for an even one.
-    fn shift(&self) -> f64 {
-        if self.count.is_finite() && self.count % 2.0 == 0.0 {
-            0.5
-        } else {
-            0.0
-        }
-    }
-
     /// The number of the last copy, counted from the middle.
     fn last(&self) -> f64 {
         0.5 * (self.count - 1.0)
@@ -75,26 +68,30 @@ impl Row {
     /// The place of the point relative to the grid, in spacings from the copy whose box has its middle at 0.
     #[inline(always)]
     fn scaled<N: Number>(&self, x: N) -> N {
-        (x - N::splat(self.middle)) / N::splat(self.spacing) - N::splat(self.shift())
+        (x - N::splat(self.middle)) / N::splat(self.spacing) - N::splat(self.shift)
     }
 
-    /// The places of the point relative to the copies that are asked.
+    /// The number of the first copy that is asked, counted from the middle; no matter where all of them are.
     #[inline(always)]
-    fn places<N: Number>(&self, x: N, visit: &mut impl FnMut(N)) {
+    fn first<N: Number>(&self, x: N) -> N {
         let last = self.last();
         if self.is_asked_whole() {
-            for i in 0..self.count as u32 {
-                visit(x - N::splat((f64::from(i) - last) * self.spacing));
-            }
-            return;
+            return N::splat(-last);
         }
         let first = (self.scaled(x) + N::splat(1.0 - 0.5 * self.asked)).floor();
         // Near the ends the asked copies move inwards, so that none is asked twice.
         let (low, high) = (N::splat(-last), N::splat(last + 1.0 - self.asked));
-        let first = (first + N::splat(self.shift())).clamp(low, high);
-        for i in 0..self.asked as u32 {
-            visit(x - (first + N::splat(f64::from(i))) * N::splat(self.spacing));
+        (first + N::splat(self.shift)).clamp(low, high)
+    }
+
+    /// The place of the point relative to the copy that is asked as number `i`.
+    #[inline(always)]
+    fn place<N: Number>(&self, x: N, first: N, i: u32) -> N {
+        let i = f64::from(i);
+        if self.is_asked_whole() {
+            return x - N::splat((i - self.last()) * self.spacing);
         }
+        x - (first + N::splat(i)) * N::splat(self.spacing)
     }
 
     /// What is left to the box of any copy that is not asked, along this axis alone.
@@ -102,7 +99,7 @@ impl Row {
     fn left_over<N: Number>(&self, x: N) -> N {
         // Copies change places where this is whole, and the one that leaves is as far as the one that enters.
         let place = self.scaled(x) - N::splat(0.5 * self.asked);
-        let (shift, last) = (N::splat(self.shift()), self.last());
+        let (shift, last) = (N::splat(self.shift), self.last());
         let (low, high) = (N::splat(-last), N::splat(last - self.asked));
         let change = ((place + N::splat(0.5)).floor() + shift).clamp(low, high);
         let beside = (place + shift - change).abs() * N::splat(self.spacing);
@@ -138,9 +135,12 @@ impl Repeat {
         let Some(row) = self.axes[axis].as_ref().filter(|row| row.is_guarded) else {
             return N::splat(f64::INFINITY);
         };
-        let gap = |axis: usize| gap_to(&self.grid, axis, p.component(axis));
-        let (u, v) = (gap((axis + 1) % 3), gap((axis + 2) % 3));
-        N::norm3(row.left_over(p.component(axis)), u, v)
+        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+        N::norm3(
+            row.left_over(p.component(axis)),
+            gap_to(&self.grid, u, p.component(u)),
+            gap_to(&self.grid, v, p.component(v)),
+        )
     }
 
     /// The box with every copy of `child`.
@@ -172,24 +172,34 @@ impl Modifier for Repeat {
     fn apply<N: Number>(&self, p: &Vec3<N>, child: impl Fn(&Vec3<N>) -> N) -> N {
         let mut nearest = N::splat(f64::INFINITY);
         let is_guarded = self.is_guarded();
-        let mut ask = |q: Vec3<N>| {
-            let mut value = child(&q);
-            if is_guarded {
-                // Outside of its box a copy counts at least as far as the box, as the guard below assumes.
-                let box_distance = N::norm3(
-                    gap_to(&self.child, 0, q.x),
-                    gap_to(&self.child, 1, q.y),
-                    gap_to(&self.child, 2, q.z),
-                );
-                value = N::select_lt(N::splat(0.0), box_distance, value.max(box_distance), value);
+        let rows = &self.axes;
+        let first = Vec3::new(
+            first(&rows[0], p.x),
+            first(&rows[1], p.y),
+            first(&rows[2], p.z),
+        );
+        // Loops in place: closures that visit places would be functions of their own, without the instructions of the caller.
+        for i in 0..asked(&rows[0]) {
+            let x = place(&rows[0], p.x, first.x, i);
+            for j in 0..asked(&rows[1]) {
+                let y = place(&rows[1], p.y, first.y, j);
+                for k in 0..asked(&rows[2]) {
+                    let q = Vec3::new(x, y, place(&rows[2], p.z, first.z, k));
+                    let mut value = child(&q);
+                    if is_guarded {
+                        // Outside of its box a copy counts at least as far as the box, as the guard below assumes.
+                        let box_distance = N::norm3(
+                            gap_to(&self.child, 0, q.x),
+                            gap_to(&self.child, 1, q.y),
+                            gap_to(&self.child, 2, q.z),
+                        );
+                        let zero = N::splat(0.0);
+                        value = N::select_lt(zero, box_distance, value.max(box_distance), value);
+                    }
+                    nearest = nearest.min(value);
+                }
             }
-            nearest = nearest.min(value);
-        };
-        along(&self.axes[0], p.x, &mut |x| {
-            along(&self.axes[1], p.y, &mut |y| {
-                along(&self.axes[2], p.z, &mut |z| ask(Vec3::new(x, y, z)));
-            });
-        });
+        }
         if !is_guarded {
             return nearest;
         }
@@ -277,6 +287,11 @@ impl Modifier for Repeat {
                 width,
                 asked,
                 is_guarded: !is_own && asked < count && child.class < Class::Exact,
+                shift: if count.is_finite() && is_even(count) {
+                    0.5
+                } else {
+                    0.0
+                },
             });
         }
         self.grid = self.extended(self.child);
@@ -304,11 +319,32 @@ fn too_large(axis: usize, width: f64, spacing: f64) -> (String, String) {
     )
 }
 
-/// Visits the places along one axis: those of a row, or the point's own.
+/// How many copies are asked along one axis: one, the shape itself, where there is no row.
 #[inline(always)]
-fn along<N: Number>(row: &Option<Row>, x: N, visit: &mut impl FnMut(N)) {
+fn asked(row: &Option<Row>) -> u32 {
+    row.as_ref().map_or(1, |row| row.asked as u32)
+}
+
+/// As [`Row::first`]; nothing where there is no row.
+#[inline(always)]
+fn first<N: Number>(row: &Option<Row>, x: N) -> N {
     match row {
-        Some(row) => row.places(x, visit),
-        None => visit(x),
+        Some(row) => row.first(x),
+        None => N::splat(0.0),
     }
+}
+
+/// As [`Row::place`]; the point's own where there is no row.
+#[inline(always)]
+fn place<N: Number>(row: &Option<Row>, x: N, first: N, i: u32) -> N {
+    match row {
+        Some(row) => row.place(x, first, i),
+        None => x,
+    }
+}
+
+/// Whether a whole number is even.
+#[inline(always)]
+pub(super) fn is_even(n: f64) -> bool {
+    0.5 * n == (0.5 * n).floor()
 }

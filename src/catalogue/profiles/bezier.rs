@@ -67,8 +67,8 @@ impl Half {
     fn distance<N: Number>(&self, x: N, y: N) -> N {
         let (t, e) = (self.tangent, self.bend);
         let (u, v) = (N::splat(self.end[0]) - x, N::splat(self.end[1]) - y);
-        let along = |w: [f64; 2]| u * N::splat(w[0]) + v * N::splat(w[1]);
-        let (c0, c1) = (along(t), along(e) + N::splat(2.0 * dot(t, t)));
+        let c0 = u * N::splat(t[0]) + v * N::splat(t[1]);
+        let c1 = u * N::splat(e[0]) + v * N::splat(e[1]) + N::splat(2.0 * dot(t, t));
         let (c2, c3) = (3.0 * dot(t, e), dot(e, e));
         let (zero, vertex) = (N::splat(0.0), N::splat(self.vertex));
         let mut s = zero;
@@ -82,8 +82,8 @@ impl Half {
             // Where the slope is not positive, no root is left before the vertex.
             s = N::select_lt(zero, slope, s - step, vertex).clamp(zero, vertex);
         }
-        let point = |i: usize| N::splat(2.0 * t[i]) + s * N::splat(e[i]);
-        let (dx, dy) = (u + s * point(0), v + s * point(1));
+        let dx = u + s * (N::splat(2.0 * t[0]) + s * N::splat(e[0]));
+        let dy = v + s * (N::splat(2.0 * t[1]) + s * N::splat(e[1]));
         u.hypot(v).min(dx.hypot(dy))
     }
 }

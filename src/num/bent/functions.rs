@@ -33,9 +33,15 @@ impl Bent {
 }
 
 impl Number for Bent {
+    type Constant = f64;
+
     const HAS_BENDS: bool = true;
 
-    fn splat(x: f64) -> Self {
+    fn constant(x: f64) -> f64 {
+        x
+    }
+
+    fn spread(x: f64) -> Self {
         Self::new(Steep::splat(x), ZERO)
     }
 

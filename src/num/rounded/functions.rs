@@ -110,10 +110,16 @@ impl Rounded {
 }
 
 impl Number for Rounded {
+    type Constant = f64;
+
     const HAS_ERRORS: bool = true;
 
     /// What is infinite in `f32` is no number to compute with, but `min` and `max` pass over it.
-    fn splat(x: f64) -> Self {
+    fn constant(x: f64) -> f64 {
+        x
+    }
+
+    fn spread(x: f64) -> Self {
         let (range, computed) = (Interval::point(x), Interval::point(f64::from(x as f32)));
         if !is_in_reach(computed) {
             return Self {

@@ -18,7 +18,13 @@ pub type Closure<N> = Arc<dyn Fn(&Vec3<N>) -> N + Send + Sync>;
 pub type Walked<N> = Arc<dyn Fn(&Vec3<N>, &mut [N]) + Send + Sync>;
 
 /// Several shapes of a union, ready to be joined to what comes before them: takes the point and the field so far.
-type Stretch<N> = Arc<dyn Fn(&Vec3<N>, N) -> N + Send + Sync>;
+type Siblings<N> = Arc<dyn Fn(&Vec3<N>, N) -> N + Send + Sync>;
+
+/// The next shapes of a union.
+enum Stretch<N> {
+    One(Closure<N>),
+    Many(Siblings<N>),
+}
 
 /// The walk over a graph, with the instructions of `level`, or of the best level below it that the processor has.
 pub fn compile_graph<N: Number>(graph: &Arc<Graph>, level: Level) -> Walked<N> {
@@ -166,7 +172,7 @@ const MANY_REGISTERS: usize = 32;
 macro_rules! builders {
     ($(#[$feature:meta])* mod $level:ident; whole: $whole:literal) => {
         mod $level {
-            use super::{Closure, FEW_REGISTERS, MANY_REGISTERS, SOME_REGISTERS, Stretch, Walked};
+            use super::{Closure, FEW_REGISTERS, MANY_REGISTERS, SOME_REGISTERS, Siblings, Stretch, Walked};
             use crate::catalogue::{AnyBlend, AnyModifier, AnyPrimitive, Blend, Combination, Modifier, Operation, Placing};
             use crate::catalogue::{Capsule, Cuboid, Cylinder, Primitive, Similarity, Sphere, Torus};
             use crate::catalogue::{with_blend, with_compiled_blend, with_compiled_modifier, with_compiled_primitive};
@@ -299,22 +305,25 @@ macro_rules! builders {
                         .or_else(|| siblings::<Capsule, _, N>(blend, rest))
                         .or_else(|| siblings::<Torus, _, N>(blend, rest));
                     if let Some((stretch, count)) = siblings {
-                        stretches.push(stretch);
+                        stretches.push(Stretch::Many(stretch));
                         rest = &rest[count..];
                         continue;
                     }
-                    let (blend, child) = (B::clone(blend), build::<N, GRAPHS>(next));
-                    stretches.push(Arc::new(move |p: &Vec3<N>, value: N| Operation::Union.join(&blend, value, child(p))));
+                    stretches.push(Stretch::One(build::<N, GRAPHS>(next)));
                     rest = others;
                 }
                 if stretches.len() + 1 == nodes.len() {
                     return None;
                 }
-                let first = build::<N, GRAPHS>(first);
+                let (blend, first) = (B::clone(blend), build::<N, GRAPHS>(first));
+                let stretches = stretches.into_boxed_slice();
                 Some(Arc::new(move |p: &Vec3<N>| {
                     let mut value = first(p);
-                    for stretch in &stretches {
-                        value = stretch(p, value);
+                    for stretch in stretches.iter() {
+                        value = match stretch {
+                            Stretch::One(child) => Operation::Union.join(&blend, value, child(p)),
+                            Stretch::Many(siblings) => siblings(p, value),
+                        };
                     }
                     value
                 }))
@@ -325,7 +334,7 @@ macro_rules! builders {
             fn siblings<P: Primitive, B: Blend, N: Number>(
                 blend: &B,
                 nodes: &[Arc<Node>],
-            ) -> Option<(Stretch<N>, usize)>
+            ) -> Option<(Siblings<N>, usize)>
             where
                 for<'a> &'a P: TryFrom<&'a AnyPrimitive>,
             {
@@ -344,16 +353,17 @@ macro_rules! builders {
                 if count < 2 {
                     return None;
                 }
-                let stretch: Stretch<N> = if is_moved {
+                let leaves = leaves.into_boxed_slice();
+                let stretch: Siblings<N> = if is_moved {
                     Arc::new(move |p: &Vec3<N>, mut value: N| {
-                        for (leaf, placing) in &leaves {
+                        for (leaf, placing) in leaves.iter() {
                             value = Operation::Union.join(&blend, value, leaf.distance(&placing.moved(p)));
                         }
                         value
                     })
                 } else {
                     Arc::new(move |p: &Vec3<N>, mut value: N| {
-                        for (leaf, placing) in &leaves {
+                        for (leaf, placing) in leaves.iter() {
                             let own = placing.field(leaf.distance(&placing.point(p)));
                             value = Operation::Union.join(&blend, value, own);
                         }

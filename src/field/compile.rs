@@ -17,8 +17,9 @@ pub type Closure<N> = Arc<dyn Fn(&Vec3<N>) -> N + Send + Sync>;
 /// A graph, ready to be evaluated: writes its outputs.
 pub type Walked<N> = Arc<dyn Fn(&Vec3<N>, &mut [N]) + Send + Sync>;
 
-/// Several shapes of a union, ready to be joined to what comes before them: takes the point and the field so far.
-type Siblings<N> = Arc<dyn Fn(&Vec3<N>, N) -> N + Send + Sync>;
+/// Several shapes of a union, ready to be joined to what comes before them: takes the point and the field so far, which it
+/// changes in place (a value that is handed on is copied twice, which is slow to be read again).
+type Siblings<N> = Arc<dyn Fn(&Vec3<N>, &mut N) + Send + Sync>;
 
 /// The next shapes of a union.
 enum Stretch<N> {
@@ -320,10 +321,10 @@ macro_rules! builders {
                 Some(Arc::new(move |p: &Vec3<N>| {
                     let mut value = first(p);
                     for stretch in stretches.iter() {
-                        value = match stretch {
-                            Stretch::One(child) => Operation::Union.join(&blend, value, child(p)),
-                            Stretch::Many(siblings) => siblings(p, value),
-                        };
+                        match stretch {
+                            Stretch::One(child) => value = Operation::Union.join(&blend, value, child(p)),
+                            Stretch::Many(siblings) => siblings(p, &mut value),
+                        }
                     }
                     value
                 }))
@@ -355,19 +356,21 @@ macro_rules! builders {
                 }
                 let leaves = leaves.into_boxed_slice();
                 let stretch: Siblings<N> = if is_moved {
-                    Arc::new(move |p: &Vec3<N>, mut value: N| {
+                    Arc::new(move |p: &Vec3<N>, all: &mut N| {
+                        let mut value = *all;
                         for (leaf, placing) in leaves.iter() {
                             value = Operation::Union.join(&blend, value, leaf.distance(&placing.moved(p)));
                         }
-                        value
+                        *all = value;
                     })
                 } else {
-                    Arc::new(move |p: &Vec3<N>, mut value: N| {
+                    Arc::new(move |p: &Vec3<N>, all: &mut N| {
+                        let mut value = *all;
                         for (leaf, placing) in leaves.iter() {
                             let own = placing.field(leaf.distance(&placing.point(p)));
                             value = Operation::Union.join(&blend, value, own);
                         }
-                        value
+                        *all = value;
                     })
                 };
                 Some((stretch, count))

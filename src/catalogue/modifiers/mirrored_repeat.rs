@@ -1,6 +1,6 @@
 //! Mirrored repetition.
 
-use super::repeat::{is_even, whole_counts};
+use super::repeat::{grid_shift, is_even, whole_counts};
 use crate::catalogue::{Bounds, Class, Modifier, Range, Traits, declaration::entry};
 use crate::num::{Number, Vec3};
 
@@ -29,21 +29,11 @@ impl MirroredRepeat {
         self.spacing[axis] > 0.0 && self.count[axis] > 1.0
     }
 
-    /// Where cells lie: centred on whole multiples of the spacing for an odd or infinite count, half way between for an
-    /// even one. The cell next above the middle is not mirrored.
-    #[inline(always)]
-    fn shift(&self, axis: usize) -> f64 {
-        let count = self.count[axis];
-        if count.is_finite() && is_even(count) {
-            0.5
-        } else {
-            0.0
-        }
-    }
-
     /// Whether the first and the last copy are mirrored: -1, else 1.
     fn ends(&self, axis: usize) -> [f64; 2] {
-        let (last, shift) = (0.5 * (self.count[axis] - 1.0), self.shift(axis));
+        let count = self.count[axis];
+        // The cell next above the middle is not mirrored.
+        let (last, shift) = (0.5 * (count - 1.0), grid_shift(count));
         [parity(last + shift), parity(last - shift)]
     }
 
@@ -58,7 +48,7 @@ impl MirroredRepeat {
         let place = x / spacing;
         let end = N::splat(0.5 * count);
         let inside = place.clamp(-end, end);
-        let turn = ((inside + N::splat(0.5 - self.shift(axis))) * half).fract();
+        let turn = ((inside + N::splat(0.5 - grid_shift(count))) * half).fract();
         let wave = half - (turn + turn - one).abs();
         if count.is_infinite() {
             return wave * spacing;
@@ -133,7 +123,8 @@ impl Modifier for MirroredRepeat {
             return *child;
         }
         // An even number of cells is mirrored in its middle.
-        let is_mirrored = |axis: usize| self.is_repeated(axis) && self.shift(axis) > 0.0;
+        let is_mirrored =
+            |axis: usize| self.is_repeated(axis) && grid_shift(self.count[axis]) > 0.0;
         Traits {
             class: child.class.min(Class::Bound),
             is_convex: false,

@@ -46,8 +46,7 @@ struct Row {
     asked: f64,
     /// Whether a copy that is not asked could have a smaller field than those that are.
     is_guarded: bool,
-    /// Where the grid lies: copies stand on whole multiples of the spacing for an odd or infinite count, half way
-    /// between for an even one.
+    /// See [`grid_shift`].
     shift: f64,
 }
 
@@ -287,11 +286,7 @@ impl Modifier for Repeat {
                 width,
                 asked,
                 is_guarded: !is_own && asked < count && child.class < Class::Exact,
-                shift: if count.is_finite() && is_even(count) {
-                    0.5
-                } else {
-                    0.0
-                },
+                shift: grid_shift(count),
             });
         }
         self.grid = self.extended(self.child);
@@ -340,6 +335,17 @@ fn place<N: Number>(row: &Option<Row>, x: N, first: N, i: u32) -> N {
     match row {
         Some(row) => row.place(x, first, i),
         None => x,
+    }
+}
+
+/// Where a grid of that many cells lies, in cells: they are centred on whole multiples of the spacing for an odd or infinite
+/// count, half way between for an even one.
+#[inline(always)]
+pub(super) fn grid_shift(count: f64) -> f64 {
+    if count.is_finite() && is_even(count) {
+        0.5
+    } else {
+        0.0
     }
 }
 
